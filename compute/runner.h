@@ -31,8 +31,17 @@ public:
     // Processors with a copy of the world each, which share its bodies and take every decision alike
     // (compute/distributed); all of them call the same functions in the same order.
     virtual int ranks() const { return 1; }
+    virtual int rank() const { return 0; }  // of this one
+    // Says to[r] to each of them; returns by rank what was said to this one.
+    virtual std::vector<std::vector<std::byte>> swap(const std::vector<std::vector<std::byte>>& to) const { return to; }
     // What each of them says, by rank.
-    virtual std::vector<std::vector<std::byte>> gather(const std::vector<std::byte>& said) const { return {said}; }
+    std::vector<std::vector<std::byte>> gather(const std::vector<std::byte>& said) const {
+        return swap(std::vector<std::vector<std::byte>>(static_cast<std::size_t>(ranks()), said));
+    }
+    // Between steps: whether each rank can do with its share of the attached tables, and dropping and getting back the rest.
+    virtual bool can_share_out() const { return false; }
+    virtual void share_out() {}
+    virtual void make_whole() {}
 
     virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 

@@ -23,9 +23,9 @@ namespace {
 
 using glm::dvec3;
 
-bool finite(const State& state, std::size_t row) {
-    const physics::Pose& pose = state.poses[row];
-    const physics::Velocity& velocity = state.velocities[row];
+bool finite(const BodyRecord& now) {
+    const physics::Pose& pose = now.pose;
+    const physics::Velocity& velocity = now.velocity;
     float sum = 0;  // NaN and infinity survive being multiplied by zero
     for (const float x : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.x, pose.orientation.y,
                           pose.orientation.z, pose.orientation.w, velocity.linear.x, velocity.linear.y, velocity.linear.z,
@@ -45,30 +45,7 @@ vec3 gravity_on(const Scene& scene, const State& state, std::uint32_t row) {
     return {std::bit_cast<float>(words.x), std::bit_cast<float>(words.y), std::bit_cast<float>(words.z)};
 }
 
-void add_motion(const Scene& scene, const State& state, std::size_t i, Statistics& s, dvec3& momentum, dvec3& spin) {
-    const MassProperties mass = mass_properties(scene.bodies[i]);
-    const std::uint32_t row = state.row_of(i);
-    const dvec3 x(state.poses[row].position), v(state.velocities[row].linear), w(state.velocities[row].angular);
-    const dvec3 own_spin = angular_momentum(mass, state.poses[row].orientation, w);
-    const double m = mass.mass;
-    momentum += m * v;
-    spin += m * glm::cross(x, v) + own_spin;
-    s.kinetic_energy += 0.5 * m * glm::dot(v, v) + 0.5 * glm::dot(w, own_spin);
-    s.potential_energy -= m * scene.bodies[i].gravity_scale * glm::dot(dvec3(gravity_on(scene, state, row)), x);
-    s.max_speed = std::max(s.max_speed, glm::length(v));
-    s.max_spin = std::max(s.max_spin, glm::length(w));
-    s.drift_max = std::max(s.drift_max, glm::length(x - dvec3(scene.bodies[i].position)));
-}
-
 constexpr float resting_speed = 0.1f;  // m/s
-
-void add_contacts(const ContactSums& contacts, Statistics& s) {
-    s.manifolds = contacts.manifolds;
-    s.points = contacts.points;
-    s.penetration_max = contacts.greatest;
-    s.penetration_resting = contacts.greatest_resting;
-    if (contacts.penetrating) s.penetration_mean = contacts.depth / static_cast<double>(contacts.penetrating);
-}
 
 // Kinetic energy of the rotors of a joint's motors.
 double rotor_energy(const State& state, const physics::Joint& joint) {
@@ -133,56 +110,116 @@ ContactSums operator+(const ContactSums& a, const ContactSums& b) {
             std::max(a.greatest, b.greatest), std::max(a.greatest_resting, b.greatest_resting)};
 }
 
-Statistics statistics_of(const Scene& scene, const State& state, const ContactSums& contacts, std::optional<std::uint32_t> copy) {
-    Statistics s;
-    dvec3 momentum(0), spin(0);
-    std::vector<std::vector<const Plane*>> planes(state.fixed().copies);
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (const auto* plane = std::get_if<Plane>(&scene.bodies[i].shape); plane && scene.bodies[i].role == Role::solid)
-            planes[state.copy_of(state.row_of(i))].push_back(plane);
-    const std::size_t copies = state.fixed().copies, joints = state.joint_records.size() / (copy ? copies : 1);
-    const std::size_t bodies = copy ? state.fixed().bodies_of_copy : scene.bodies.size(), first = copy.value_or(0) * bodies;
-    for (std::size_t i = first; i < first + bodies; ++i) {
-        const std::uint32_t row = state.row_of(i);
-        s.broken += state.properties[row].motion == physics::MOTION_BROKEN;
-        if (physics::is_absent(state.properties[row].motion)) continue;
-        ++s.bodies;
-        s.pieces += scene.bodies[i].piece_of != no_body;
-        if (!finite(state, row) || physics::is_quarantined(state.properties[row].motion)) {
-            ++s.not_finite;
-            continue;
-        }
-        if (scene.bodies[i].motion != Motion::dynamic) continue;
-        s.asleep += physics::is_asleep(state.sleep_states[row], state.fixed().sleep_steps);
-        add_motion(scene, state, i, s, momentum, spin);
-        const vec3 centre = state.poses[row].position;
-        const std::vector<const Plane*>& own = planes[state.copy_of(row)];
-        s.below_ground += std::any_of(own.begin(), own.end(), [&](const Plane* plane) {
-            return glm::dot(dvec3(plane->normal), dvec3(centre)) < plane->offset;
-        });
+void add_contacts(const ContactSums& contacts, Statistics& s) {
+    s.manifolds = contacts.manifolds;
+    s.points = contacts.points;
+    s.penetration_max = contacts.greatest;
+    s.penetration_resting = contacts.greatest_resting;
+    if (contacts.penetrating) s.penetration_mean = contacts.depth / static_cast<double>(contacts.penetrating);
+}
+
+BodyRecord BodyRecord::of(const State& state, std::uint32_t row) {
+    return {state.properties[row].motion, state.sleep_states[row], state.poses[row], state.velocities[row]};
+}
+
+void BodySums::add(const Body& body, const BodyRecord& now, vec3 gravity, const std::vector<Plane>& planes,
+                   physics::uint sleep_steps) {
+    sums_.broken += now.motion == physics::MOTION_BROKEN;
+    if (physics::is_absent(now.motion)) return;
+    ++sums_.bodies;
+    sums_.pieces += body.piece_of != no_body;
+    if (!finite(now) || physics::is_quarantined(now.motion)) {
+        ++sums_.not_finite;
+        return;
     }
-    s.spin_limited = state.counted().spin_limited;
-    add_contacts(contacts, s);
-    add_joints(state, copy.value_or(0) * joints, joints, s);
+    if (body.motion != Motion::dynamic) return;
+    sums_.asleep += physics::is_asleep(now.rest, sleep_steps);
+    add_motion(body, now, gravity);
+    sums_.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+        return glm::dot(dvec3(plane.normal), dvec3(now.pose.position)) < plane.offset;
+    });
+}
+
+void BodySums::add_motion(const Body& body, const BodyRecord& now, vec3 gravity) {
+    const MassProperties mass = mass_properties(body);
+    const dvec3 x(now.pose.position), v(now.velocity.linear), w(now.velocity.angular);
+    const dvec3 own_spin = angular_momentum(mass, now.pose.orientation, w);
+    const double m = mass.mass;
+    momentum_ += m * v;
+    spin_ += m * glm::cross(x, v) + own_spin;
+    sums_.kinetic_energy += 0.5 * m * glm::dot(v, v) + 0.5 * glm::dot(w, own_spin);
+    sums_.potential_energy -= m * body.gravity_scale * glm::dot(dvec3(gravity), x);
+    sums_.max_speed = std::max(sums_.max_speed, glm::length(v));
+    sums_.max_spin = std::max(sums_.max_spin, glm::length(w));
+    sums_.drift_max = std::max(sums_.drift_max, glm::length(x - dvec3(body.position)));
+}
+
+void BodySums::add(const BodySums& others) {
+    const Statistics& more = others.sums_;
+    for (std::size_t Statistics::*const count : {&Statistics::bodies, &Statistics::broken, &Statistics::pieces,
+                                                 &Statistics::asleep, &Statistics::not_finite, &Statistics::below_ground})
+        sums_.*count += more.*count;
+    for (double Statistics::*const sum : {&Statistics::kinetic_energy, &Statistics::potential_energy}) sums_.*sum += more.*sum;
+    for (double Statistics::*const most : {&Statistics::max_speed, &Statistics::max_spin, &Statistics::drift_max})
+        sums_.*most = std::max(sums_.*most, more.*most);
+    momentum_ += others.momentum_;
+    spin_ += others.spin_;
+}
+
+Statistics BodySums::statistics() const {
+    Statistics s = sums_;
     for (int axis = 0; axis < 3; ++axis) {
-        s.momentum[axis] = momentum[axis];
-        s.angular_momentum[axis] = spin[axis];
+        s.momentum[axis] = momentum_[axis];
+        s.angular_momentum[axis] = spin_[axis];
     }
     return s;
+}
+
+std::vector<Plane> solid_planes(const Scene& scene, std::size_t first, std::size_t last) {
+    std::vector<Plane> planes;
+    for (std::size_t i = first; i < last; ++i)
+        if (const auto* plane = std::get_if<Plane>(&scene.bodies[i].shape); plane && scene.bodies[i].role == Role::solid)
+            planes.push_back(*plane);
+    return planes;
+}
+
+Statistics statistics_of(const Scene& scene, const State& state, const ContactSums& contacts, std::optional<std::uint32_t> copy) {
+    BodySums sums;
+    const std::size_t copies = state.fixed().copies, bodies = scene.bodies.size() / copies;
+    const std::size_t joints = state.joint_records.size() / (copy ? copies : 1);
+    const std::size_t begin = copy.value_or(0), end = copy ? begin + 1 : copies;
+    for (std::size_t one = begin; one < end; ++one) {
+        const std::vector<Plane> planes = solid_planes(scene, one * bodies, (one + 1) * bodies);
+        for (std::size_t i = one * bodies; i < (one + 1) * bodies; ++i) {
+            const std::uint32_t row = state.row_of(i);
+            sums.add(scene.bodies[i], BodyRecord::of(state, row), gravity_on(scene, state, row), planes,
+                     state.fixed().sleep_steps);
+        }
+    }
+    Statistics s = sums.statistics();
+    s.spin_limited = state.counted().spin_limited;
+    add_contacts(contacts, s);
+    add_joints(state, begin * joints, joints, s);
+    return s;
+}
+
+void append_hashed(std::vector<float>& values, const physics::Pose& pose, const physics::Velocity& velocity) {
+    const auto append = [&](const auto& of) { values.insert(values.end(), &of.x, &of.x + of.length()); };
+    append(pose.position);
+    append(pose.orientation);
+    append(velocity.linear);
+    append(velocity.angular);
 }
 
 std::uint64_t hash_of(const State& state, std::optional<std::uint32_t> copy) {
     constexpr std::size_t floats = 13;
     // Parts follow from their bodies.
     const std::size_t bodies = copy ? state.fixed().bodies_of_copy : state.body_count, first = copy.value_or(0) * bodies;
-    std::vector<float> values(floats * bodies);
+    std::vector<float> values;
+    values.reserve(floats * bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
-        float* body = values.data() + floats * i;
         const std::uint32_t row = state.row_of(first + i);
-        std::memcpy(body, &state.poses[row].position, 12);
-        std::memcpy(body + 3, &state.poses[row].orientation, 16);
-        std::memcpy(body + 7, &state.velocities[row].linear, 12);
-        std::memcpy(body + 10, &state.velocities[row].angular, 12);
+        append_hashed(values, state.poses[row], state.velocities[row]);
     }
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;

@@ -424,7 +424,21 @@ public:
 private:
     friend void restore_tables(State& state, std::span<const std::byte> saved);
     struct Impl;
-    std::unique_ptr<Impl> interior_;
+    // Ranks that share the world hold it in parts while it only steps; who looks into it has it whole.
+    class Interior {
+    public:
+        explicit Interior(std::unique_ptr<Impl> impl);
+        Interior(Interior&&) noexcept;
+        Interior& operator=(Interior&&) noexcept;
+        ~Interior();
+        Impl* operator->() const { return &**this; }
+        Impl& operator*() const;
+        Impl& as_it_is() const { return *impl_; }
+
+    private:
+        std::unique_ptr<Impl> impl_;
+    };
+    Interior interior_;
 };
 
 std::string hash_text(std::uint64_t hash);  // 16 hexadecimal digits

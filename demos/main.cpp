@@ -16,6 +16,7 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/help_formatter.h"
 #include "demos/program/interrupt.h"
+#include "host/device_error.h"
 #include "host/files/partial_file.h"
 
 namespace {
@@ -113,6 +114,8 @@ int run(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const demos::WorkFailed& error) {
+        return tell(error.what(), demos::promise_missed);
+    } catch (const scree::host::DeviceLost& error) {
         return tell(error.what(), demos::promise_missed);
     } catch (const std::system_error& error) {
         return tell(error.what(), demos::promise_missed);  // such as a full stream or a thread that cannot start

@@ -10,4 +10,9 @@ struct DeviceError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// The device stopped in the midst of its work, whatever was asked of it.
+struct DeviceLost : DeviceError {
+    using DeviceError::DeviceError;
+};
+
 }  // namespace scree::host

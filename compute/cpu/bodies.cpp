@@ -226,8 +226,7 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
             if (bounds.bucket != physics::NONE) bounds = physics::of_copy(bounds, copy, state.fixed());
             if (stirs) note(state.copy_states[copy], physics::COPY_STIRS);
         }
-        if (bounds.bucket != physics::NONE)
-            std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
+        if (bounds.bucket != physics::NONE) taken(threads, state.cell_counts()[bounds.bucket]);
         if (!stirs) bounds.level |= physics::INACTIVE;
         state.bounds[i] = bounds;
     });
@@ -274,6 +273,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
+    const bool may_sleep = state.fixed().sleep_steps != physics::NO_SLEEP;
     const std::atomic_ref spin_limited(state.counted().spin_limited), quarantined(state.counted().quarantined);
     threads.for_each(state.movable_bodies.size(), [&](std::size_t k) {
         const std::uint32_t i = state.movable_bodies[k];
@@ -290,7 +290,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         }
         if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
         velocity = physics::held_velocity(velocity, state.fixed());
-        const float pace = physics::pace_of(properties, velocity, state.fixed());
+        const float pace = may_sleep ? physics::pace_of(properties, velocity, state.fixed()) : 0;
         state.sleep_states[i] = physics::sleep_state_after(state.sleep_states[i], pace, sum.weight, least_quiet_beside(state, i),
                                                            state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);

@@ -2,60 +2,22 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cstring>
-#include <numeric>
-#include <ranges>
 #include <span>
 #include <tuple>
 
-#include "compute/cpu/simd/simd_stages.h"
+#include "compute/cpu/cells.h"
+#include "compute/cpu/near_rows.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/filter.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/persistence.h"
 
 namespace scree::reference {
 
 namespace {
 
-std::span<const physics::CellEntry> entries(const State& state, std::size_t first, std::size_t last) {
-    return std::span(state.cell_entries).subspan(first, last - first);
-}
-
-std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
-    return entries(state, b == 0 ? 0 : state.cell_ends[b - 1], state.cell_ends[b]);
-}
-
-// physics::boxes_overlap without branches: half of the neighbours overlap, which no branch predictor foresees.
-bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
-    using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
-    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
-    Four lower_a, upper_a, lower_b, upper_b;
-    std::memcpy(&lower_a, &a.lower, sizeof lower_a);
-    std::memcpy(&upper_a, &a.upper, sizeof upper_a);
-    std::memcpy(&lower_b, &b.lower, sizeof lower_b);
-    std::memcpy(&upper_b, &b.upper, sizeof upper_b);
-    const Halves both = (Halves)((lower_a <= upper_b) & (lower_b <= upper_a));
-    return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
-}
-
-// Calls visit(entries) for the bodies in a row of cells along x, whose buckets may wrap round the end of the grid. `level`:
-// with the copy.
-template <typename Visit>
-void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
-    const std::uint32_t buckets = state.fixed().buckets;
-    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cell_ends[b - 1]; };
-    if (cells >= buckets) return visit(entries(state, 0, end_of(buckets)));
-    const std::uint32_t first = physics::bucket_of(from, level, buckets);
-    const std::uint32_t last = std::min(first + cells, buckets);
-    visit(entries(state, end_of(first), end_of(last)));
-    if (first + cells > buckets) visit(entries(state, 0, end_of(first + cells - buckets)));
-}
-
-std::uint32_t key_of(const physics::CellEntry& entry) {
-    return entry.level & ~(physics::INACTIVE | physics::MOVES);
+bool still(const State& state, std::uint32_t body) {
+    return (state.bounds[body].level & physics::INACTIVE) != 0;
 }
 
 bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
@@ -68,12 +30,14 @@ bool near_large(const State& state, std::size_t body, const physics::CellEntry& 
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
 
+// physics::can_touch of a row and an entry of the grid, where there are no planes: of two bodies without a look at the other.
+bool can_touch(const State& state, std::uint32_t body, const physics::BodyProperties& own, const physics::CellEntry& other) {
+    if (std::max(body, other.body) >= state.fixed().first_part) return physics::can_touch(own, state.properties[other.body]);
+    return body != other.body && (physics::motion_of(own) == physics::MOTION_DYNAMIC || (other.level & physics::MOVES) != 0);
+}
+
 // Part of the rows above which inactive ones are too many to search from as well: 1/8.
 constexpr std::size_t most_still = 8;
-
-bool still(const State& state, std::uint32_t body) {
-    return (state.bounds[body].level & physics::INACTIVE) != 0;
-}
 
 // Pairs of inactive bodies are those of last step's contacts.
 template <typename Found>
@@ -107,8 +71,9 @@ bool may_collide(const State& state, std::uint32_t row, std::uint32_t other) {
 }
 
 // Where a body looks for partners on its own level: in all cells in reach, for pairs that it owns; or only in the cells
-// from its own on, in the order of their coordinates, for pairs that either owns.
-enum class Search { around, ahead };
+// from its own on, in the order of their coordinates, for pairs that either owns; or on all levels in the list of rows that were
+// near it (near_rows.h), for the same.
+enum class Search { around, ahead, listed };
 
 bool is_ahead(const physics::ivec3& cell, std::uint32_t body, const physics::ivec3& own_cell, std::uint32_t own) {
     return std::tie(cell.z, cell.y, cell.x, body) > std::tie(own_cell.z, own_cell.y, own_cell.x, own);
@@ -139,20 +104,33 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
         if (physics::can_touch(own, state.properties[other.body]) && near_large(state, body, other)) found(other.body);
     }
     if (physics::is_large(own)) return;
+    const auto found_by_either = [&](std::uint32_t other, std::uint32_t other_level) {
+        const std::uint32_t other_id = state.id_of(other);
+        if (physics::finds(id, around.level, other_id, other_level))
+            found_by(body, other);
+        else if (physics::finds(other_id, other_level, id, around.level))
+            found_by(other, body);
+    };
+    if (search == Search::listed) {
+        for_each_near(state, body, [&](std::uint32_t other) {
+            if (physics::can_touch(own, state.properties[other])) found_by_either(other, state.bounds[other].level);
+        });
+        return;
+    }
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         if (search == Search::ahead && level == (around.level & physics::LEVEL_BITS)) continue;
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
         const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
         const std::uint32_t key = level | of_copy;
-        physics::ivec3 from = range.first;
+        RowOfCells cell_row{state, range.first};
+        physics::ivec3& from = cell_row.from;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & (key_of(other) == key))) continue;
+                if (!(int{overlap(around, other)} & int{key_of(other) == key} & int{cell_row.has(cell_row.cell_of(other))}))
+                    continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
-                const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
-                if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
-                if (physics::can_touch(own, state.properties[other.body])) found(other.body);
+                if (can_touch(state, body, own, other)) found(other.body);
             }
         };
         for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
@@ -162,18 +140,14 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     const std::uint32_t level = around.level & physics::LEVEL_BITS, key = level | of_copy;
     const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
     const physics::ivec3 own_cell = physics::cell_of(around.lower, around.upper, level, p.inverse_cell);
-    physics::ivec3 from = own_cell;
+    RowOfCells cell_row{state, own_cell};
+    physics::ivec3& from = cell_row.from;
     const auto visit = [&](std::span<const physics::CellEntry> row) {
         for (const physics::CellEntry& other : row) {
-            if (!(overlap(around, other) & (key_of(other) == key))) continue;
-            const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
-            if (cell.y != from.y || cell.z != from.z || !is_ahead(cell, other.body, own_cell, body)) continue;
-            if (!physics::can_touch(own, state.properties[other.body])) continue;
-            const std::uint32_t other_level = other.level & ~physics::MOVES, other_id = state.id_of(other.body);
-            if (physics::finds(id, around.level, other_id, other_level))
-                found_by(body, other.body);
-            else if (physics::finds(other_id, other_level, id, around.level))
-                found_by(other.body, body);
+            const physics::ivec3& cell = cell_row.cell_of(other);
+            if (!(int{overlap(around, other)} & int{key_of(other) == key} & int{cell_row.has(cell)})) continue;
+            if (!is_ahead(cell, other.body, own_cell, body) || !can_touch(state, body, own, other)) continue;
+            found_by_either(other.body, other.level & ~physics::MOVES);
         }
     };
     for (; from.z <= range.last.z; ++from.z)
@@ -183,99 +157,32 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
         }
 }
 
-// Id of the partner in a contact of the last step.
-std::uint32_t partner_before(const State& state, std::uint32_t owner, std::size_t contact) {
-    const physics::Contact& before = state.contacts_before[contact];
-    return state.id_of(before.a == owner ? before.b : before.a);
-}
-
-// The contact of the last step that `owner` owned with the body of that id, from the contact `from` on, which is moved up to
-// that id: each body's contacts are in the order of their partners' ids.
-std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t id, std::uint32_t& from) {
-    const std::uint32_t last = state.first_contacts[owner + 1];
-    for (; from < last; ++from) {
-        const std::uint32_t partner = partner_before(state, owner, from);
-        if (partner >= id) return partner == id ? from : physics::NONE;
-    }
-    return physics::NONE;
-}
-
-void list_least_partners(State& state, const Threads& threads) {
-    state.least_partners.resize(state.fixed().bodies);
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const std::uint32_t first = state.first_contacts[i];
-        state.least_partners[i] =
-            first == state.first_contacts[i + 1] ? physics::NONE : partner_before(state, static_cast<std::uint32_t>(i), first);
-    });
-}
-
-// `from`: as for contact_before, of the owner's contacts.
-physics::Pair matched(const State& state, const physics::Candidate& candidate, std::uint32_t& from) {
-    const std::uint32_t id = state.id_of(candidate.owner), other_id = state.id_of(candidate.other);
-    physics::Pair pair{candidate.owner, candidate.other, 0, physics::NONE};
-    if (other_id < id) std::swap(pair.a, pair.b);
-    if (!state.is_newborn(state.copy_of(pair.a))) {
-        pair.previous = contact_before(state, candidate.owner, other_id, from);
-        if (pair.previous == physics::NONE && state.least_partners[candidate.other] <= id) {
-            std::uint32_t first = state.first_contacts[candidate.other];
-            pair.previous = contact_before(state, candidate.other, id, first);
-        }
-    }
-    if (still(state, pair.a) && still(state, pair.b)) {
-        pair.pair_type = physics::PAIR_INACTIVE;
-        return pair;
-    }
-    pair.pair_type = physics::pair_type_of(state.properties[pair.a].shape, state.properties[pair.b].shape);
-    return pair;
-}
-
-// Whether the pair's contact of the last step may persist (persistence.h).
-bool may_persist(const State& state, const physics::Pair& pair) {
-    return pair.pair_type != physics::PAIR_INACTIVE && pair.previous != physics::NONE &&
-           physics::has_weight(felt_by(state, state.body_of(pair.a))) &&
-           physics::may_persist(state.impulses_before[pair.previous], state.properties[pair.a], state.properties[pair.b]);
-}
-bool persists(const State& state, const physics::Pair& pair) {
-    const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-    return physics::is_persistent(state.contacts_before[pair.previous], state.properties[pair.a], state.poses[a],
-                                  state.velocities[a], state.properties[pair.b], state.poses[b], state.velocities[b]);
-}
-
-// Makes those of the pairs [first, last) persistent whose contacts of the last step persist.
-void find_persistent(State& state, const WideStages* wide, std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> found;
-    found.reserve(last - first);
-    for (std::size_t i = first; i < last; ++i)
-        if (may_persist(state, state.pairs[i])) found.push_back(static_cast<std::uint32_t>(i));
-    if (wide) return wide->keep(wide_tables(state, found), 0, found.size());
-    for (const std::uint32_t i : found)
-        if (persists(state, state.pairs[i])) state.pairs[i].pair_type = physics::PAIR_PERSISTENT;
-}
-
 }  // namespace
 
 void fill_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (state.bounds[i].bucket == physics::NONE) return;
-        const std::uint32_t entry =
-            std::atomic_ref(state.cell_starts()[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
+        const std::uint32_t entry = taken(threads, state.cell_starts()[state.bounds[i].bucket]);
         state.cell_entries[entry].body = static_cast<std::uint32_t>(i);
     });
 }
 
 void sort_cells(State& state, const Threads& threads, std::uint32_t) {
     std::atomic<std::uint32_t> still_entries = 0;
+    state.entry_cells.resize(state.cell_entries.size());
     threads.for_ranges(physics::buckets_in_all(state.fixed()), [&](std::size_t begin, std::size_t end) {
         std::uint32_t inactive = 0;
         for (std::size_t b = begin; b < end; ++b) {
             const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
             const auto last = state.cell_entries.begin() + state.cell_ends[b];
             std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
-            for (physics::CellEntry& entry : std::ranges::subrange(first, last)) {
+            for (physics::CellEntry& entry : std::span(first, last)) {
                 const physics::Bounds& around = state.bounds[entry.body];
                 inactive += (around.level & physics::INACTIVE) != 0;
                 entry = {around.lower, entry.body, around.upper,
                          physics::level_of_entry(around.level, state.properties[entry.body])};
+                state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())] =
+                    physics::cell_of(entry.lower, entry.upper, entry.level & physics::LEVEL_BITS, state.fixed().inverse_cell);
             }
         }
         still_entries.fetch_add(inactive, std::memory_order_relaxed);
@@ -292,13 +199,11 @@ void count_pairs(State& state, const Threads& threads, std::uint32_t) {
         if (place < State::noted) state.partners[owner][place] = other;
     };
     if (state.still_entries < bodies / most_still) {
-        const bool alone = threads.count() == 1;
+        const auto list = [&](std::uint32_t owner, std::uint32_t other) { note(owner, other, taken(threads, counts[owner])); };
+        const bool listed = find_near_rows(state, threads);
         threads.for_each(bodies, [&](std::size_t i) {
-            for_each_pair<Search::ahead>(state, static_cast<std::uint32_t>(i), [&](std::uint32_t owner, std::uint32_t other) {
-                const std::uint32_t place =
-                    alone ? counts[owner]++ : std::atomic_ref(counts[owner]).fetch_add(1, std::memory_order_relaxed);
-                note(owner, other, place);
-            });
+            const auto body = static_cast<std::uint32_t>(i);
+            listed ? for_each_pair<Search::listed>(state, body, list) : for_each_pair<Search::ahead>(state, body, list);
         });
     } else {
         threads.for_each(bodies, [&](std::size_t i) {
@@ -325,23 +230,6 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
             std::for_each_n(state.partners[i].begin(), count, list);
         else
             for_each_pair<Search::around>(state, owner, [&](std::uint32_t, std::uint32_t other) { list(other); });
-    });
-}
-
-void match_pairs(State& state, const Threads& threads, std::uint32_t) {
-    if (state.counted().overflow) return;
-    const WideStages* wide = wide_stages(threads.lanes());
-    list_least_partners(state, threads);
-    threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            std::uint32_t from = state.first_contacts[i];
-            const auto first = state.candidates.begin() + state.pair_starts[i];
-            const auto last = state.candidates.begin() + state.pair_starts[i + 1];
-            std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
-            std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
-                           [&](const physics::Candidate& candidate) { return matched(state, candidate, from); });
-        }
-        find_persistent(state, wide, state.pair_starts[begin], state.pair_starts[end]);
     });
 }
 

@@ -1,5 +1,7 @@
 // Reference stages of continuous collision: predicted impacts, times of impact, clamping.
+#include <algorithm>
 #include <atomic>
+#include <vector>
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
@@ -29,6 +31,21 @@ physics::MotionPath course(const State& state, std::uint32_t row, float until) {
     const physics::MotionPath whole =
         physics::path_of(state.properties[body], sweep.position, sweep.orientation, state.poses[body], until);
     return row == body ? whole : physics::path_of_part(state.properties[row], state.part_in(row), whole);
+}
+
+// Pairs of which a body was fast.
+void list_fast_pairs(State& state, const Threads& threads) {
+    const auto is_fast = [&](std::uint32_t row) { return physics::stop_of(state.bounds[state.body_of(row)].sweep) <= 1; };
+    state.fast_pairs.resize(state.counted().pairs);
+    std::atomic<std::size_t> end = 0;
+    threads.for_ranges(state.counted().pairs, [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> found;
+        for (std::size_t i = first; i < last; ++i)
+            if (is_fast(state.pairs[i].a) || is_fast(state.pairs[i].b)) found.push_back(static_cast<std::uint32_t>(i));
+        const std::size_t place = end.fetch_add(found.size(), std::memory_order_relaxed);
+        std::copy(found.begin(), found.end(), state.fast_pairs.begin() + static_cast<std::ptrdiff_t>(place));
+    });
+    state.fast_pairs.resize(end);
 }
 
 }  // namespace
@@ -89,7 +106,10 @@ void cull_speculative(State& state, const Threads& threads, std::uint32_t) {
 void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
     if (!some_fast(state)) return;
     const std::size_t now = round % 2, next = 1 - now;
-    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+    if (round == 0) list_fast_pairs(state, threads);
+    const bool listed = !state.has_joints();  // whose stops reach further bodies after a round
+    threads.for_each(listed ? state.fast_pairs.size() : state.counted().pairs, [&](std::size_t k) {
+        const std::size_t i = listed ? state.fast_pairs[k] : k;
         const std::uint32_t rows[2] = {state.pairs[i].a, state.pairs[i].b};
         const std::uint32_t bodies[2] = {state.body_of(rows[0]), state.body_of(rows[1])};
         float stops[2];

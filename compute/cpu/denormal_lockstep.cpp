@@ -5,10 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
+#include "compute/cpu/flushed_denormals.h"
 #include "compute/statistics.h"
 #include "compute/step/threads.h"
 
@@ -16,50 +13,12 @@ namespace scree {
 
 namespace {
 
-// Flushes denormals on this thread until the end of the scope.
-class Flushing {
-public:
-#if defined(__x86_64__)
-    static constexpr bool possible = true;
-    Flushing() : before_(_mm_getcsr()) {
-        _mm_setcsr(before_ | flush_results | operands_are_zero);
-    }
-    ~Flushing() {
-        _mm_setcsr(before_);
-    }
-
-private:
-    static constexpr unsigned flush_results = 0x8000, operands_are_zero = 0x0040;
-    unsigned before_;
-#elif defined(__aarch64__)
-    static constexpr bool possible = true;
-    Flushing() {
-        asm volatile("mrs %0, fpcr" : "=r"(before_));
-        asm volatile("msr fpcr, %0" ::"r"(before_ | flush_to_zero));
-    }
-    ~Flushing() {
-        asm volatile("msr fpcr, %0" ::"r"(before_));
-    }
-
-private:
-    static constexpr unsigned long flush_to_zero = 1ul << 24;
-    unsigned long before_ = 0;
-#else
-    static constexpr bool possible = false;
-    Flushing() = default;
-
-private:
-#endif
-    Flushing(const Flushing&) = delete;
-    Flushing& operator=(const Flushing&) = delete;
-};
-
 constexpr std::uint32_t group_size = 64;
 
 }  // namespace
 
 bool can_flush_denormals() {
-    return Flushing::possible;
+    return FlushedDenormals::possible;
 }
 
 LockstepResult compare_flushing(const Scene& scene, const Settings& settings, int steps,
@@ -74,7 +33,7 @@ LockstepResult compare_flushing(const Scene& scene, const Settings& settings, in
     const auto run_equal = [&](const Stage& stage) {
         stage.reference(keeping, threads, stage.pass);
         {
-            const Flushing flush;
+            const FlushedDenormals flush;
             stage.reference(flushing, threads, stage.pass);
         }
         result.stage = stage.name;

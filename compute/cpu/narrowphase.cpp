@@ -110,12 +110,11 @@ std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
 
 void count_pair_types(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t spans = physics::pair_blocks_of(state.counted().pairs);
-    if (state.pair_manifolds.size() < state.counted().pairs) state.pair_manifolds.resize(state.fixed().pair_capacity);
     threads.for_each(spans, [&](std::size_t i) {
-        const auto pairs = span_of(state, i);
-        for (std::size_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
-            state.pair_type_counts()[pair_type * spans + i] = static_cast<physics::uint>(std::count_if(
-                pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.pair_type == pair_type; }));
+        std::array<physics::uint, physics::PAIR_TYPES> found{};
+        for (const physics::Pair& pair : span_of(state, i)) ++found[pair.pair_type];
+        for (std::size_t pair_type = 0; pair_type < found.size(); ++pair_type)
+            state.pair_type_counts()[pair_type * spans + i] = found[pair_type];
     });
 }
 
@@ -152,11 +151,7 @@ void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t first = state.counted().pair_type_first[physics::PAIR_PERSISTENT],
                       last = state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1];
     state.counted().contacts += static_cast<physics::uint>(last - first);
-    if (const WideStages* wide = wide_stages(threads.lanes())) {
-        WideTables tables = wide_tables(state, state.pairs_by_type);
-        tables.items += first;
-        return threads.for_ranges(last - first, [&](std::size_t begin, std::size_t end) { wide->persist(tables, begin, end); });
-    }
+    if (wide_stages(threads.lanes())) return;  // match_pairs has found the manifolds
     threads.for_each(last - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const physics::Pair& pair = state.pairs[index];

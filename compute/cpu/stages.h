@@ -2,6 +2,7 @@
 // against.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "compute/step/state.h"
@@ -19,6 +20,14 @@ inline const physics::Parameters& felt_by(const State& state, std::uint32_t row)
 }
 void feel_gravities(State& state);
 
+// Takes places at the end of a list that all threads append to.
+inline std::uint32_t taken(const Threads& threads, std::uint32_t& end, std::uint32_t places = 1) {
+    if (threads.count() > 1) return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
+    const std::uint32_t first = end;
+    end += places;
+    return first;
+}
+
 #define SCREE_STAGE(name) void name(State& state, const Threads& threads, std::uint32_t pass)
 
 // bodies.cpp
@@ -35,6 +44,8 @@ SCREE_STAGE(fill_cells);
 SCREE_STAGE(sort_cells);
 SCREE_STAGE(count_pairs);
 SCREE_STAGE(fill_pairs);
+
+// matching.cpp
 SCREE_STAGE(match_pairs);
 
 // narrowphase.cpp
@@ -51,13 +62,17 @@ SCREE_STAGE(propagate_wake);  // pass: the depth of this round
 
 // contacts.cpp
 SCREE_STAGE(make_contacts);
-SCREE_STAGE(count_slots);
-SCREE_STAGE(fill_slots);
-SCREE_STAGE(sort_slots);
 SCREE_STAGE(warm_start_contacts);
+
+// contact_passes.cpp
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed
+
+// slots.cpp
+SCREE_STAGE(count_slots);
+SCREE_STAGE(fill_slots);
+SCREE_STAGE(sort_slots);
 
 // joints.cpp
 SCREE_STAGE(wake_joined);

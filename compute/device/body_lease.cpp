@@ -41,8 +41,8 @@ BodyLease DeviceRunner::lease_bodies() {
         VkSemaphoreCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
         info.pNext = &type;
-        host::check(device_->vk().vkCreateSemaphore(device_->handle(), &info, nullptr, &ready_.timeline),
-                    "creating a timeline semaphore");
+        host::check_made(device_->vk().vkCreateSemaphore(device_->handle(), &info, nullptr, &ready_.timeline),
+                         "creating a timeline semaphore", ready_.timeline);
     }
     const Range poses = range(Table::poses), velocities = range(Table::velocities);
     const std::uint32_t rows = state_->fixed().bodies;

@@ -51,6 +51,10 @@ std::size_t buffer_at(Table table, std::size_t parity) {
     return buffer_of(parity ? other_parity(owner) : owner);
 }
 
+double seconds_since(Timeline::Time then) {
+    return std::chrono::duration<double>(Timeline::Clock::now() - then).count();
+}
+
 std::size_t argument_offset(physics::uint row) {
     return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
 }
@@ -60,8 +64,12 @@ std::size_t argument_offset(physics::uint row) {
 DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
 DeviceRunner::~DeviceRunner() {
     if (!device_) return;
-    wait_for_returned();
-    device_->wait_idle();
+    try {
+        wait_for_returned();
+    } catch (const host::DeviceError&) {
+        // Nothing to wait for on a lost device.
+    }
+    device_->settle();
     device_->vk().vkDestroySemaphore(device_->handle(), ready_.timeline, nullptr);
 }
 
@@ -252,35 +260,67 @@ void DeviceRunner::bind_tables() {
         steps_[parity] = {};
         tables_[parity] = std::make_unique<host::BindingSet>(layout_, bound);
     }
+    const auto place = [&](Table table) {
+        const Range one = range(table);
+        return StepInputs::Place{one.buffer, one.offset, one.bytes};
+    };
+    inputs_ = std::make_unique<StepInputs>(device_, place(Table::parameters), place(Table::actions));
+    inputs_given_ = false;
+    sent_ = {};
 }
 
-const host::CommandBuffer& DeviceRunner::whole_step() {
-    std::unique_ptr<host::CommandBuffer>& step = steps_[parity_][timed_ ? 1 : 0];
-    if (step) return *step;
-    auto commands = std::make_unique<host::CommandBuffer>(device_, timed_ ? static_cast<std::uint32_t>(recorded_.size()) + 1 : 0);
-    if (timed_) commands->timestamp();
-    for (const Stage& stage : recorded_) {
-        record_stage(*commands, stage);
-        if (stage.barrier_after) commands->barrier();
+const DeviceRunner::Recordings& DeviceRunner::whole_step() {
+    Recordings& pieces = steps_[parity_][timed_ ? 1 : 0];
+    if (!pieces.empty()) return pieces;
+    const std::size_t stages = recorded_.size(), count = std::min(pieces_, stages);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t first = k * stages / count, last = (k + 1) * stages / count;
+        auto commands = std::make_unique<host::CommandBuffer>(device_, timed_ ? static_cast<std::uint32_t>(last - first) + 1 : 0);
         if (timed_) commands->timestamp();
+        for (std::size_t i = first; i < last; ++i) {
+            record_stage(*commands, recorded_[i]);
+            if (recorded_[i].barrier_after) commands->barrier();
+            copy_list_ends(*commands, recorded_[i]);
+            if (timed_) commands->timestamp();
+        }
+        if (last == stages) {
+            commands->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
+            commands->barrier();
+        }
+        commands->end();
+        pieces.push_back(std::move(commands));
     }
-    commands->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
-    commands->barrier();
-    commands->end();
-    step = std::move(commands);
-    return *step;
+    return pieces;
+}
+
+std::vector<VkCommandBuffer> DeviceRunner::commands_of_step() {
+    std::vector<VkCommandBuffer> commands;
+    if (std::exchange(inputs_given_, false)) commands.push_back(inputs_->copies(parity_));
+    for (const auto& piece : whole_step()) commands.push_back(piece->handle());
+    return commands;
+}
+
+void DeviceRunner::note_duration(double seconds) {
+    pieces_wanted_ = std::max(pieces_wanted_, static_cast<std::size_t>(seconds / longest_submission_) + 1);
+}
+
+// While no step is under way.
+void DeviceRunner::take_pieces() {
+    if (std::exchange(pieces_, pieces_wanted_) != pieces_wanted_) steps_ = {};
 }
 
 void DeviceRunner::begin_step() {
     if (!state_->fixed().redo) parity_ ^= 1;
-    send_inputs();
+    give_inputs();
 }
 
 bool DeviceRunner::step() {
+    take_pieces();
     begin_step();
     const TimedSlice wait(timeline(), "wait for the device");
     submitted_[parity_] = Timeline::Clock::now();
-    host::Submission(*device_, {whole_step().handle()}, std::exchange(returned_, {}), next_ready()).wait();
+    host::Submission(*device_, commands_of_step(), std::exchange(returned_, {}), next_ready()).wait();
+    note_duration(seconds_since(submitted_[parity_]));
     return finished(parity_);
 }
 
@@ -288,17 +328,25 @@ bool DeviceRunner::finished(std::size_t parity) {
     std::memcpy(&state_->counted(), counts_back_[parity].mapped(), sizeof(physics::Counts));
     if (timed_) {
         clock_.begin_step();
-        const std::vector<double> seconds = steps_[parity][1]->timestamp_seconds();
-        for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
+        std::size_t stage = 0;
+        for (const auto& piece : steps_[parity][1])
+            for (const double seconds : piece->timestamp_seconds()) clock_.add(stage++, seconds);
         clock_.end_step();
         if (Timeline* told = timeline()) tell_stages(*told, parity);
     }
-    return state_->counted().overflow == 0;
+    if (state_->counted().overflow != 0) return false;
+    require_short_lists(parity);
+    return true;
 }
 
 void DeviceRunner::tell_stages(Timeline& told, std::size_t parity) {
-    const std::vector<Timeline::Time> times =
-        queue_clock_.place(steps_[parity][1]->timestamps(), submitted_[parity], Timeline::Clock::now());
+    std::vector<double> ticks;
+    for (const auto& piece : steps_[parity][1]) {
+        const std::vector<double> of_piece = piece->timestamps();
+        if (!ticks.empty() && !of_piece.empty()) ticks.pop_back();  // a stage ends where the next piece begins
+        ticks.insert(ticks.end(), of_piece.begin(), of_piece.end());
+    }
+    const std::vector<Timeline::Time> times = queue_clock_.place(ticks, submitted_[parity], Timeline::Clock::now());
     if (times.empty()) return;
     told.slice(Timeline::queue, "step", times.front(), times.back());
     for (std::size_t i = 0; i + 1 < times.size(); ++i) tell(told, Timeline::queue, recorded_[i], *state_, times[i], times[i + 1]);
@@ -307,11 +355,14 @@ void DeviceRunner::tell_stages(Timeline& told, std::size_t parity) {
 bool DeviceRunner::steps(int count, std::uint64_t& done) {
     std::array<std::optional<host::Submission>, 2> under_way;  // by parity
     int submitted = 0;
+    Timeline::Time completed = Timeline::Clock::now();
     for (int waited = 0; waited < count; ++waited, ++done) {
         while (submitted < count && submitted < waited + 2) {
+            if (pieces_ != pieces_wanted_ && submitted > waited) break;
+            take_pieces();
             begin_step();
             submitted_[parity_] = Timeline::Clock::now();
-            under_way[parity_].emplace(*device_, std::vector{whole_step().handle()}, std::exchange(returned_, {}), next_ready());
+            under_way[parity_].emplace(*device_, commands_of_step(), std::exchange(returned_, {}), next_ready());
             ++submitted;
         }
         const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;
@@ -319,6 +370,8 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
             const TimedSlice wait(timeline(), "wait for the device");
             under_way[parity]->wait();
         }
+        note_duration(std::min(seconds_since(submitted_[parity]), seconds_since(completed)));
+        completed = Timeline::Clock::now();
         if (finished(parity)) continue;
         // The next step has seen the overflow and changed nothing.
         for (std::optional<host::Submission>& step : under_way) step.reset();
@@ -345,7 +398,10 @@ void DeviceRunner::run_stage(std::size_t index) {
             alone.push_back(std::move(commands));
         }
     }
-    device_->submit_and_wait({alone[index]->handle()});
+    std::vector<VkCommandBuffer> commands;
+    if (std::exchange(inputs_given_, false)) commands.push_back(inputs_->copies(parity_));
+    commands.push_back(alone[index]->handle());
+    device_->submit_and_wait(commands);
 }
 
 std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device) {

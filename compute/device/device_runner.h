@@ -13,6 +13,7 @@
 #include "compute/device/make_device_runner.h"
 #include "compute/device/queue_clock.h"
 #include "compute/device/ray_caster.h"
+#include "compute/device/step_inputs.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
@@ -47,6 +48,8 @@ public:
     bool cast(RayTask& task) override;
     void cast_rays_from(std::size_t rays) { fewest_rays_ = rays; }  // batches of fewer rays are cast on the host
     void set_profiling(bool on) override { timed_ = on; }
+    void submit_within(double seconds) { longest_submission_ = seconds; }  // about; of each submission
+    std::size_t submissions_of_a_step() const { return pieces_; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -91,13 +94,19 @@ private:
     void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
     void upload_all();
     void bind_tables();
-    const host::CommandBuffer& whole_step();
+    using Recordings = std::vector<std::unique_ptr<host::CommandBuffer>>;
+    const Recordings& whole_step();
+    std::vector<VkCommandBuffer> commands_of_step();
+    void note_duration(double seconds);
+    void take_pieces();
     bool finished(std::size_t parity);  // of a step: false if a list overflowed
+    void copy_list_ends(host::CommandBuffer& commands, const Stage& stage);
+    void require_short_lists(std::size_t parity) const;  // throws host::DeviceError: long_lists.cpp
     void tell_stages(Timeline& told, std::size_t parity);
     void record_stage(host::CommandBuffer& commands, const Stage& stage) const;
     host::Submission::Moment next_ready();
     void wait_for_returned();  // on the host
-    void send_inputs();
+    void give_inputs();
     void send_parameters();
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
@@ -121,10 +130,17 @@ private:
     TableOffsets offsets_;
     std::vector<host::Buffer> buffers_;        // by binding; contacts and contacts_before are swapped with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity
-    // Per parity: the bindings, and (made on demand) the whole step without and with timestamps, and each stage alone.
+    std::array<std::array<host::Buffer, 2>, 2> list_ends_;  // likewise, where lists may be too long: long_lists.cpp
+    // Per parity: the bindings, and (made on demand) the whole step in pieces without and with timestamps, and each stage alone.
     std::array<std::unique_ptr<host::BindingSet>, 2> tables_;
-    std::array<std::array<std::unique_ptr<host::CommandBuffer>, 2>, 2> steps_;
-    std::array<std::vector<std::unique_ptr<host::CommandBuffer>>, 2> alone_;
+    std::array<std::array<Recordings, 2>, 2> steps_;
+    std::array<Recordings, 2> alone_;
+    // A step is submitted in pieces, since watchdogs of drivers end submissions that take seconds. A step that took longer than
+    // this time has the next ones submitted in more pieces.
+    double longest_submission_ = 0.2;  // s
+    std::size_t pieces_ = 1, pieces_wanted_ = 1;
+    std::unique_ptr<StepInputs> inputs_;
+    bool inputs_given_ = false;  // to the step that is submitted next
     std::size_t parity_ = 0;
     bool timed_ = false;
     QueueClock queue_clock_;

@@ -20,12 +20,15 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
     const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
     const auto bodies = static_cast<double>(state.body_count - pieces);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
+    const TableOffsets tables = table_offsets(state);
+    const double longest = static_cast<double>(*std::max_element(tables.bytes.begin(), tables.bytes.end()));
+    const double fitting = std::min(memory / needed, static_cast<double>(device.largest_buffer) / longest);
     std::string with;
     if (pieces > 0) with += ", with the " + std::to_string(pieces) + " pieces that they may break into,";
     if (parts > 0) with += ", with their " + std::to_string(parts) + " parts,";
     char text[160];
     std::snprintf(text, sizeof text, " take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", needed / 1e9,
-                  device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
+                  device.name.c_str(), memory / 1e9, std::min(bodies, bodies * fitting));
     return "All tables of the " + std::to_string(state.body_count - pieces) + " bodies" + with + text;
 }
 
@@ -165,10 +168,12 @@ void DeviceRunner::send_parameters() {
     sent_ = p;
 }
 
-void DeviceRunner::send_inputs() {
-    send_parameters();
+void DeviceRunner::give_inputs() {
     const physics::Parameters& p = state_->fixed();
-    if (p.actions) buffer(Table::actions).write(state_->actions.data(), p.actions * sizeof(physics::Action));
+    if (std::memcmp(&p, &sent_, sizeof p) == 0 && p.actions == 0) return;
+    inputs_->give(parity_, p, std::span(state_->actions).first(p.actions));
+    sent_ = p;
+    inputs_given_ = true;
 }
 
 void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {

@@ -81,6 +81,28 @@ void DistributedRunner::adapt() {
     }
 }
 
+bool DistributedRunner::can_share_out() const {
+    const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
+    const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
+    return exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
+}
+
+void DistributedRunner::share_out() {
+    State& state = *state_;
+    if (state.presence.empty()) ownership_.place(state, *exchange_);
+    share_.make(state);
+    ownership_.forget_groups();
+    halo_.forget();
+    adapt();
+}
+
+void DistributedRunner::make_whole() {
+    share_.end(*state_, *exchange_);
+    halo_.forget();
+    adapt();
+    gathered_.assign(table_count, false);
+}
+
 bool DistributedRunner::step() {
     State& state = *state_;
     if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
@@ -88,8 +110,8 @@ bool DistributedRunner::step() {
     if (!state.fixed().redo) state.turn_over();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
         if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
-        ownership_.follow_joints(state, *exchange_);
-        if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_);
+        ownership_.follow_joints(state, *exchange_, share_);
+        if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_, share_);
         ownership_.place(state, *exchange_);
     }
     wakes_ = knows_waking_ = knows_border_ = false;
@@ -160,7 +182,7 @@ bool DistributedRunner::talk(Talk what) {
         case Talk::none:
             break;
         case Talk::ghosts:
-            halo_.find(*state_, ownership_, *exchange_);
+            halo_.find(*state_, ownership_, *exchange_, share_);
             break;
         case Talk::flags:
             agree_on_flags();
@@ -252,14 +274,16 @@ void DistributedRunner::tell_quarantined() {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].split_state >= 0)
             continue;
-        put(said, row);
+        put(said, state.id_of(row));
         put(said, state.masses[row].split_state);
     }
     for (const Bytes& told : exchange_->gather(said))
         for (Unpacker from(told); from.has_more();) {
-            const auto row = from.take<std::uint32_t>();
+            const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
+            const auto mark = from.take<float>();
+            if (row == physics::NONE) continue;
             state.properties[row].motion = physics::MOTION_QUARANTINED;
-            state.masses[row].split_state = from.take<float>();
+            state.masses[row].split_state = mark;
             state.velocities[row] = {};
             state.sleep_states[row] = 0;
         }

@@ -1,9 +1,9 @@
 // The distributed runner: a rank's part of a step of a world that several ranks share, with the bits of one world.
 //
-// Every rank has the tables of the whole scene and moves the bodies that it owns (ownership.h). A contact at a border is
-// solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other ranks near a border
-// are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's stages are
-// told between them: here is the list of these places.
+// Every rank moves the bodies that it owns (ownership.h), and has the tables of the whole scene or its share of them (share.h). A
+// contact at a border is solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other
+// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's
+// stages are told between them: here is the list of these places.
 #pragma once
 
 #include <memory>
@@ -13,6 +13,7 @@
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
+#include "compute/distributed/share.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
@@ -28,7 +29,11 @@ public:
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     int ranks() const override { return exchange_->ranks(); }
-    std::vector<Bytes> gather(const Bytes& said) const override { return exchange_->gather(said); }
+    int rank() const override { return exchange_->rank(); }
+    std::vector<Bytes> swap(const std::vector<Bytes>& to) const override { return exchange_->swap(to); }
+    bool can_share_out() const override;
+    void share_out() override;
+    void make_whole() override;
     void attach(State& state) override;
     void adapt() override;
     bool step() override;
@@ -77,6 +82,7 @@ private:
     std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
     std::uint32_t own_capacity_ = 0;                               // of contacts, before those of other ranks were read
     Ownership ownership_;
+    Share share_;
     Halo halo_;
     Border border_;
     bool knows_border_ = false;                         // in this step

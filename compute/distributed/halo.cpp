@@ -14,12 +14,19 @@ namespace scree {
 
 namespace {
 
+// Width of a fine cell over that of a coarse one: a power of two, so that fine cells lie in coarse ones.
+constexpr float coarse = 1.0f / 8;
+
 struct GhostAtStart {
-    std::uint32_t row = 0, rest = 0;
+    std::uint32_t id = 0, rest = 0;
     physics::Pose pose;
     physics::Velocity velocity;
     physics::BodyForces forces;
     float split_state = 0;
+};
+struct FreshGhost {
+    std::uint32_t id = 0;
+    physics::BodyProperties properties;
 };
 struct GhostVelocity {
     physics::Velocity velocity;
@@ -47,6 +54,8 @@ bool overlap(const physics::vec3& lower_a, const physics::vec3& upper_a, const p
 }  // namespace
 
 void Halo::adapt(const State& state) {
+    reach_.clear();
+    if (!state.features().moving_parts) return;
     reach_.assign(state.fixed().first_part, 0.0f);
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row) {
         const physics::BodyProperties& part = state.properties[row];
@@ -63,15 +72,16 @@ Halo::Box Halo::box_of(const State& state, std::uint32_t row) const {
     const physics::Pose& pose = state.poses[row];
     const physics::Velocity& velocity = state.velocities[row];
     if (physics::is_apart(body)) return {};
-    if (reach_[row] == 0) {
+    const float reach = reach_.empty() ? 0 : reach_[row];
+    if (reach == 0) {
         if (body.shape == physics::SHAPE_NONE) return {};
         const physics::Bounds bounds = physics::bounds_of(body, 0, pose, velocity, state.forces[row], p);
         return {bounds.lower, bounds.upper};
     }
     const float spin = glm::length(velocity.angular) * p.dt;
-    const float way = glm::length(velocity.linear) * p.dt + reach_[row] * spin * (1 + spin) +
+    const float way = glm::length(velocity.linear) * p.dt + reach * spin * (1 + spin) +
                       glm::length(state.forces[row].acceleration) * p.dt * p.dt;
-    const physics::vec3 half(1.01f * (reach_[row] + way + p.speculative));
+    const physics::vec3 half(1.01f * (reach + way + p.speculative));
     return {pose.position - half, pose.position + half};
 }
 
@@ -93,23 +103,37 @@ void Halo::find_near(const State& state, Exchange& exchange) {
     std::vector<Box> theirs(ranks);
     const std::vector<Bytes> told = exchange.gather(said);
     for (std::size_t r = 0; r < ranks; ++r) Unpacker(told[r]).take(theirs[r]);
-    // To each neighbour: the cells that bodies near it are in.
-    std::vector<Bytes> cells(ranks);
+    const auto may_touch = [&](std::size_t r) {
+        return r != own && overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper);
+    };
+    // To each neighbour coarse cells of all bodies; then of those in its coarse cells the fine ones.
+    CellSet whole(coarse * state.fixed().inverse_cell);
+    for (const Box& box : boxes) whole.add(box.lower, box.upper);
+    std::vector<Bytes> told_cells(ranks);
+    for (std::size_t r = 0; r < ranks; ++r)
+        if (may_touch(r)) told_cells[r] = whole.bytes();
+    const std::vector<Bytes> regions = exchange.swap(told_cells);
+    std::vector<std::vector<std::size_t>> near(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
-        if (r == own || !overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper)) continue;
+        told_cells[r].clear();
+        if (!may_touch(r)) continue;
+        const CellSet region(coarse * state.fixed().inverse_cell, regions[r]);
         CellSet set(state.fixed().inverse_cell);
-        for (const Box& box : boxes)
-            if (overlap(box.lower, box.upper, theirs[r].lower, theirs[r].upper)) set.add(box.lower, box.upper);
-        cells[r] = set.bytes();
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            if (!overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) ||
+                !region.meets(boxes[k].lower, boxes[k].upper))
+                continue;
+            near[r].push_back(k);
+            set.add(boxes[k].lower, boxes[k].upper);
+        }
+        told_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> sets = exchange.swap(cells);
+    const std::vector<Bytes> sets = exchange.swap(told_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
-        if (r == own || sets[r].empty()) continue;
+        if (!may_touch(r)) continue;
         const CellSet set(state.fixed().inverse_cell, sets[r]);
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            if (overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) &&
-                set.meets(boxes[k].lower, boxes[k].upper))
-                to_[r].push_back(rows[k]);
+        for (const std::size_t k : near[r])
+            if (set.meets(boxes[k].lower, boxes[k].upper)) to_[r].push_back(rows[k]);
     }
 }
 
@@ -128,7 +152,7 @@ void Halo::find_touched(const State& state, const Ownership& ownership, const Ex
     }
 }
 
-void Halo::find(State& state, const Ownership& ownership, Exchange& exchange) {
+void Halo::find(State& state, const Ownership& ownership, Exchange& exchange, Share& share) {
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
     for (const std::vector<std::uint32_t>& rows : from_)
         for (const std::uint32_t row : rows)
@@ -139,27 +163,75 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange) {
     find_near(state, exchange);
     find_touched(state, ownership, exchange);
     std::vector<Bytes> ghosts(ranks);
+    known_.resize(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
         std::sort(to_[r].begin(), to_[r].end());
         to_[r].erase(std::unique(to_[r].begin(), to_[r].end()), to_[r].end());
-        for (const std::uint32_t row : to_[r])
-            put(ghosts[r], GhostAtStart{row, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
-                                        state.masses[row].split_state});
+        ghosts[r] = start_of(state, to_[r], known_[r]);
     }
-    const std::vector<Bytes> sent = exchange.swap(ghosts);
-    for (std::size_t r = 0; r < ranks; ++r)
-        for (Unpacker from(sent[r]); from.has_more();) {
-            const auto ghost = from.take<GhostAtStart>();
-            from_[r].push_back(ghost.row);
-            state.presence[ghost.row] = Presence::ghost;
-            state.sleep_states[ghost.row] = ghost.rest;
-            state.poses[ghost.row] = ghost.pose;
-            state.velocities[ghost.row] = ghost.velocity;
-            state.forces[ghost.row] = ghost.forces;
-            state.masses[ghost.row].split_state = ghost.split_state;
-        }
+    take_ghosts(state, share, exchange.swap(ghosts));
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
         state.presence[row] = state.presence[state.properties[row].owner];
+}
+
+// A share has no properties of bodies that were not here in the last step.
+Bytes Halo::start_of(const State& state, const std::vector<std::uint32_t>& rows, std::vector<std::uint32_t>& known) const {
+    Bytes ghosts, fresh;
+    std::vector<std::uint32_t> ids;
+    for (const std::uint32_t row : rows) {
+        const std::uint32_t id = state.id_of(row);
+        put(ghosts, GhostAtStart{id, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
+                                 state.masses[row].split_state});
+        if (!state.is_share()) continue;
+        ids.push_back(id);
+        if (!std::binary_search(known.begin(), known.end(), id)) put(fresh, FreshGhost{id, state.properties[row]});
+    }
+    std::sort(ids.begin(), ids.end());
+    known.swap(ids);
+    if (ghosts.empty()) return {};
+    Bytes all;
+    put(all, static_cast<std::uint64_t>(rows.size()));
+    all.insert(all.end(), ghosts.begin(), ghosts.end());
+    all.insert(all.end(), fresh.begin(), fresh.end());
+    return all;
+}
+
+void Halo::take_ghosts(State& state, Share& share, const std::vector<Bytes>& sent) {
+    std::vector<std::vector<GhostAtStart>> ghosts(sent.size());
+    std::vector<FreshGhost> fresh;
+    std::vector<std::uint32_t> ids;
+    for (std::size_t r = 0; r < sent.size(); ++r) {
+        if (sent[r].empty()) continue;
+        Unpacker from(sent[r]);
+        for (auto left = from.take<std::uint64_t>(); left > 0; --left) ids.push_back(from.take(ghosts[r].emplace_back()).id);
+        while (from.has_more()) from.take(fresh.emplace_back());
+    }
+    const auto note = [&](std::uint32_t id) {
+        if (const std::uint32_t row = state.row_of(id); row != physics::NONE) state.presence[row] = Presence::ghost;
+    };
+    std::for_each(ids.begin(), ids.end(), note);  // before rows are taken from others
+    share.take_in(state, ids);
+    std::for_each(ids.begin(), ids.end(), note);
+    for (const FreshGhost& one : fresh) {
+        const std::uint32_t row = state.row_of(one.id);
+        state.properties[row] = owned_by(row, one.properties);
+    }
+    for (std::size_t r = 0; r < ghosts.size(); ++r)
+        for (const GhostAtStart& ghost : ghosts[r]) {
+            const std::uint32_t row = state.row_of(ghost.id);
+            from_[r].push_back(row);
+            state.sleep_states[row] = ghost.rest;
+            state.poses[row] = ghost.pose;
+            state.velocities[row] = ghost.velocity;
+            state.forces[row] = ghost.forces;
+            state.masses[row].split_state = ghost.split_state;
+        }
+}
+
+void Halo::forget() {
+    to_.clear();
+    from_.clear();
+    known_.clear();
 }
 
 std::size_t Halo::ghosts() const {
@@ -210,12 +282,12 @@ void Halo::send_struck(State& state, Exchange& exchange) {
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.struck == 0) continue;
-        put(said, row);
+        put(said, state.id_of(row));
         put(said, state.bounds[row].sweep.struck);
     }
     for (const Bytes& told : exchange.gather(said))
         for (Unpacker from(told); from.has_more();) {
-            const auto row = from.take<std::uint32_t>();
+            const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
             state.bounds[row].sweep.struck |= from.take<std::uint32_t>();
         }
 }

@@ -17,7 +17,8 @@ public:
     void adapt(const State& state);
     // Finds the ghosts of this step, those whose bounds overlap a body of another rank or that touched one in the last step, and
     // sends what the broadphase and narrowphase read of them.
-    void find(State& state, const Ownership& ownership, Exchange& exchange);
+    void find(State& state, const Ownership& ownership, Exchange& exchange, Share& share);
+    void forget();  // all ghosts, as rows change
 
     // Of every ghost, from its owner.
     void send_sleep_states(State& state, Exchange& exchange);
@@ -40,6 +41,8 @@ private:
     Box box_of(const State& state, std::uint32_t row) const;
     void find_near(const State& state, Exchange& exchange);
     void find_touched(const State& state, const Ownership& ownership, const Exchange& exchange);
+    Bytes start_of(const State& state, const std::vector<std::uint32_t>& rows, std::vector<std::uint32_t>& known) const;
+    void take_ghosts(State& state, Share& share, const std::vector<Bytes>& sent);
     // Of every ghost the record that `of` makes on its owner, which `take` puts into the tables here.
     template <class Record, class Of, class Take>
     void start(const State& state, Exchange& exchange, const Of& of, const Take& take);
@@ -49,8 +52,9 @@ private:
         finish(state, exchange);
     }
 
-    std::vector<float> reach_;                           // of the parts of a row, m; 0: none
+    std::vector<float> reach_;                           // of the parts of a row, m; 0: none; empty: no compound moves
     std::vector<std::vector<std::uint32_t>> to_, from_;  // rows by rank
+    std::vector<std::vector<std::uint32_t>> known_;      // ids of the bodies that each rank was sent in the last step, ascending
     std::vector<Bytes> outgoing_, incoming_;
     std::function<void(State&)> taking_;  // puts what has come in into the tables
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_set>
 
 #include "compute/distributed/packing.h"
 #include "compute/step/memory_order.h"
@@ -22,22 +23,25 @@ struct Sample {
 };
 
 struct MovedBody {
-    std::uint32_t row = 0, rest = 0;
+    std::uint32_t id = 0, rest = 0;
+    physics::BodyProperties properties;
     physics::Pose pose;
     physics::Velocity velocity;
     float split_state = 0, strain = 0;
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
-    return {
-        row, state.sleep_states[row], state.poses[row], state.velocities[row], state.masses[row].split_state, state.strains[row]};
+    return {state.id_of(row),      state.sleep_states[row],       state.properties[row], state.poses[row],
+            state.velocities[row], state.masses[row].split_state, state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {
-    state.sleep_states[body.row] = body.rest;
-    state.poses[body.row] = body.pose;
-    state.velocities[body.row] = body.velocity;
-    state.masses[body.row].split_state = body.split_state;
-    state.strains[body.row] = body.strain;
+    const std::uint32_t row = state.row_of(body.id);
+    if (state.is_share()) state.properties[row] = owned_by(row, body.properties);
+    state.sleep_states[row] = body.rest;
+    state.poses[row] = body.pose;
+    state.velocities[row] = body.velocity;
+    state.masses[row].split_state = body.split_state;
+    state.strains[row] = body.strain;
 }
 
 template <class Records>
@@ -59,7 +63,8 @@ bool is_dynamic(const State& state, std::uint32_t row) {
 }  // namespace
 
 std::uint64_t Ownership::place_of(const State& state, std::uint32_t id) const {
-    return place_on_curve(state.poses[state.row_of(group_[id])].position, state.fixed().inverse_cell);
+    const std::uint32_t row = state.row_of(group_.empty() ? id : group_[id]);
+    return place_on_curve(state.poses[row].position, state.fixed().inverse_cell);
 }
 
 void Ownership::group(const State& state) {
@@ -89,6 +94,7 @@ void Ownership::group(const State& state) {
 }
 
 void Ownership::adapt(const State& state, const Exchange& exchange) {
+    if (state.is_share()) return;
     const auto known = static_cast<std::uint32_t>(owner_.size());
     const std::uint32_t n = state.body_count;
     owner_.resize(n);
@@ -117,8 +123,10 @@ void Ownership::place(State& state, Exchange& exchange) {
     state.presence.assign(rows, Presence::elsewhere);
     Bytes no_longer_dynamic;
     bool any_stopped = false;
-    for (std::uint32_t id = 0; id < owner_.size(); ++id) {
-        const std::uint32_t row = state.row_of(id);
+    for (std::uint32_t row = 0; row < first_part; ++row) {
+        const std::uint32_t id = state.id_of(row);
+        // An empty row, or of a ghost that comes in this step.
+        if (id >= owner_.size() || (state.is_share() && physics::is_absent(state.properties[row].motion))) continue;
         const bool own = owner_[id] == exchange.rank(), dynamic = is_dynamic(state, row);
         const physics::uint motion = state.properties[row].motion;
         if (dynamic)
@@ -137,13 +145,13 @@ void Ownership::place(State& state, Exchange& exchange) {
         for (Unpacker from(told); from.has_more();) take_body(state, from.take<MovedBody>());
 }
 
-void Ownership::balance(State& state, Exchange& exchange) {
+void Ownership::balance(State& state, Exchange& exchange, Share& share) {
     std::vector<Sample> own;
     double total = 0;
     std::vector<std::uint32_t> ids;
-    for (std::uint32_t id = 0; id < owner_.size(); ++id) {
-        const std::uint32_t row = state.row_of(id);
-        if (owner_[id] != exchange.rank() || !is_dynamic(state, row)) continue;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        const std::uint32_t id = state.id_of(row);
+        if (id >= owner_.size() || owner_[id] != exchange.rank() || !is_dynamic(state, row)) continue;
         const std::uint32_t slots = state.slot_ends[row] - (row == 0 ? 0 : state.slot_ends[row - 1]);
         own.push_back({place_of(state, id), 1.0 + slots});
         ids.push_back(id);
@@ -186,39 +194,39 @@ void Ownership::balance(State& state, Exchange& exchange) {
             static_cast<int>(std::upper_bound(borders_.begin(), borders_.end(), unsorted[k].place) - borders_.begin());
         if (target != exchange.rank()) moves.push_back({ids[k], target});
     }
-    move(state, exchange, moves);
+    move(state, exchange, share, moves);
 }
 
-void Ownership::follow_joints(State& state, Exchange& exchange) {
+void Ownership::follow_joints(State& state, Exchange& exchange, Share& share) {
     if (!regrouped_) return;
     regrouped_ = false;
     Moves moves;
     for (std::uint32_t id = 0; id < owner_.size(); ++id)
         if (owner_[id] == exchange.rank() && owner_[group_[id]] != exchange.rank()) moves.push_back({id, owner_[group_[id]]});
-    move(state, exchange, moves);
+    move(state, exchange, share, moves);
 }
 
-void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
+void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves& own_moves) {
     Bytes said;
     for (const auto& [id, target] : own_moves) {
         put(said, id);
         put(said, target);
     }
-    std::vector<int> before;
     const std::vector<Bytes> told = exchange.gather(said);
     if (std::all_of(told.begin(), told.end(), [](const Bytes& one) { return one.empty(); })) return;
-    before = owner_;
+    const int own = exchange.rank();
+    std::unordered_set<std::uint32_t> left;
     for (const Bytes& one : told)
         for (Unpacker from(one); from.has_more(); ++migrations_) {
             const auto id = from.take<std::uint32_t>();
+            if (owner_[id] == own) left.insert(id);
             owner_[id] = from.take<int>();
         }
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
-    const int own = exchange.rank();
     const auto leaves_for = [&](std::uint32_t row) {  // -1: it stays, or was not here
         if (row >= state.fixed().first_part) row = state.properties[row].owner;
         const std::uint32_t id = state.id_of(row);
-        return before[id] == own && owner_[id] != own && is_dynamic(state, row) ? owner_[id] : -1;
+        return left.contains(id) && owner_[id] != own && is_dynamic(state, row) ? owner_[id] : -1;
     };
     std::vector<std::vector<MovedBody>> bodies(ranks);
     for (const auto& [id, target] : own_moves)
@@ -228,9 +236,9 @@ void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             const int to_a = leaves_for(contact.a), to_b = leaves_for(contact.b);
-            if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back({row, contact, state.impulses_before[k]});
-            if (to_b >= 0 && to_b != to_a)
-                contacts[static_cast<std::size_t>(to_b)].push_back({row, contact, state.impulses_before[k]});
+            const OwnedContact told_contact = by_ids(state, {row, contact, state.impulses_before[k]});
+            if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back(told_contact);
+            if (to_b >= 0 && to_b != to_a) contacts[static_cast<std::size_t>(to_b)].push_back(told_contact);
         }
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
@@ -256,10 +264,12 @@ void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
         put_list(to[r], joints[r]);
         put_list(to[r], vehicles[r]);
     }
+    std::vector<MovedBody> come;
     std::vector<OwnedContact> more;
     for (const Bytes& one : exchange.swap(to)) {
         Unpacker from(one);
-        for (const MovedBody& body : take_list<MovedBody>(from)) take_body(state, body);
+        const auto some_bodies = take_list<MovedBody>(from);
+        come.insert(come.end(), some_bodies.begin(), some_bodies.end());
         const auto some = take_list<OwnedContact>(from);
         more.insert(more.end(), some.begin(), some.end());
         const auto joint_bytes = take_list<std::byte>(from), vehicle_bytes = take_list<std::byte>(from);
@@ -272,6 +282,12 @@ void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
             records.take(state.vehicles[k]);
         }
     }
+    std::vector<std::uint32_t> needed;  // and who touches them: ghosts of this step
+    for (const MovedBody& body : come) needed.push_back(body.id);
+    for (const OwnedContact& one : more) needed.insert(needed.end(), {one.contact.a, one.contact.b});
+    share.take_in(state, needed);
+    for (const MovedBody& body : come) take_body(state, body);
+    for (OwnedContact& one : more) one = by_rows(state, one);
     state.turn_over();
     merge_contacts(state, more, [&](const physics::Contact& contact) {
         const auto is_own = [&](std::uint32_t row) {
@@ -288,28 +304,45 @@ void Ownership::inherit(const State& state, std::uint32_t row) {
     for (std::uint32_t k = 0; k < fracturing.count; ++k) owner_[state.id_of(fracturing.first_row + k)] = owner_[state.id_of(row)];
 }
 
+OwnedContact by_ids(const State& state, OwnedContact contact) {
+    for (std::uint32_t* row : {&contact.owner, &contact.contact.a, &contact.contact.b}) *row = state.id_of(*row);
+    return contact;
+}
+OwnedContact by_rows(const State& state, OwnedContact contact) {
+    for (std::uint32_t* id : {&contact.owner, &contact.contact.a, &contact.contact.b}) *id = state.row_with(*id);
+    return contact;
+}
+
 void merge_contacts(State& state, const std::vector<OwnedContact>& more,
                     const std::function<bool(const physics::Contact&)>& keeps) {
-    const std::uint32_t rows = state.fixed().bodies;
-    std::vector<OwnedContact> all = more;
+    struct Place {
+        std::uint32_t owner, other, from;  // row, id, index of a kept contact; behind all of those of one that is added
+        auto key() const { return std::pair(owner, other); }
+    };
+    const std::uint32_t rows = state.fixed().bodies, before = state.first_contacts[rows];
+    const auto place_of = [&](std::uint32_t owner, const physics::Contact& contact, std::uint32_t from) {
+        return Place{owner, state.id_of(contact.a == owner ? contact.b : contact.a), from};
+    };
+    std::vector<Place> all;
+    all.reserve(before + more.size());
     for (std::uint32_t row = 0; row < rows; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
-            if (keeps(state.contacts[k])) all.push_back({row, state.contacts[k], state.impulses[k]});
-    const auto key = [&](const OwnedContact& one) {
-        return std::pair(one.owner, state.id_of(one.contact.a == one.owner ? one.contact.b : one.contact.a));
-    };
-    std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }), all.end());
+            if (keeps(state.contacts[k])) all.push_back(place_of(row, state.contacts[k], k));
+    for (std::uint32_t k = 0; k < more.size(); ++k) all.push_back(place_of(more[k].owner, more[k].contact, before + k));
+    std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() < b.key(); });
+    all.erase(std::unique(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() == b.key(); }), all.end());
     if (all.size() > state.fixed().contact_capacity) {
         state.fixed().contact_capacity = State::with_reserve(all.size());
         state.allocate();
     }
     std::fill(state.first_contacts.begin(), state.first_contacts.end(), 0u);
     for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::uint32_t from = all[k].from;
         ++state.first_contacts[all[k].owner + 1];
-        state.contacts[k] = all[k].contact;
-        state.impulses[k] = all[k].impulse;
+        state.contacts_before[k] = from < before ? state.contacts[from] : more[from - before].contact;
+        state.impulses_before[k] = from < before ? state.impulses[from] : more[from - before].impulse;
     }
+    state.turn_over();
     std::partial_sum(state.first_contacts.begin(), state.first_contacts.end(), state.first_contacts.begin());
     state.counted().contacts = static_cast<std::uint32_t>(all.size());
 }

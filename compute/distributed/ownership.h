@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compute/distributed/exchange.h"
+#include "compute/distributed/share.h"
 #include "compute/step/state.h"
 
 namespace scree {
@@ -20,9 +21,11 @@ public:
     // Sets the presence of every row by its motion and owner, with no ghosts. Bodies that are no longer dynamic are told to all.
     void place(State& state, Exchange& exchange);
     // Moves the borders by the cost that was measured, and the bodies that have crossed one. Between turning over and begin_step.
-    void balance(State& state, Exchange& exchange);
+    void balance(State& state, Exchange& exchange, Share& share);
     // Bodies that new joints have tied to one of another rank follow it.
-    void follow_joints(State& state, Exchange& exchange);
+    void follow_joints(State& state, Exchange& exchange, Share& share);
+    // In a share no joints connect bodies.
+    void forget_groups() { std::vector<std::uint32_t>().swap(group_); }
     // Fragments belong to the owner of what has broken.
     void inherit(const State& state, std::uint32_t row);
     int owner_of(const State& state, std::uint32_t row) const { return owner_[state.id_of(row)]; }
@@ -30,24 +33,26 @@ public:
 
 private:
     using Moves = std::vector<std::pair<std::uint32_t, int>>;  // id, new owner
-    void move(State& state, Exchange& exchange, const Moves& own_moves);
+    void move(State& state, Exchange& exchange, Share& share, const Moves& own_moves);
     std::uint64_t place_of(const State& state, std::uint32_t id) const;  // on the curve
     void group(const State& state);
 
     std::vector<int> owner_;            // by id of the body
-    std::vector<std::uint32_t> group_;  // likewise: the lowest id that joints connect it with
+    std::vector<std::uint32_t> group_;  // likewise: the lowest id that joints connect it with; empty: none are connected
     std::vector<std::uint8_t> was_dynamic_;
     std::vector<std::uint64_t> borders_;  // first place of every rank but the first
     bool regrouped_ = false;
     std::uint64_t migrations_ = 0;
 };
 
-// A contact of the last step, with the row that owned its pair.
+// A contact of the last step, with the row that owned its pair; in messages with ids in place of rows.
 struct OwnedContact {
     std::uint32_t owner = 0;
     physics::Contact contact;
     physics::Impulse impulse;
 };
+OwnedContact by_ids(const State& state, OwnedContact contact);
+OwnedContact by_rows(const State& state, OwnedContact contact);
 // Adds contacts to those of the last step that are kept, each once.
 void merge_contacts(State& state, const std::vector<OwnedContact>& more,
                     const std::function<bool(const physics::Contact&)>& keeps);

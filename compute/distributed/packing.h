@@ -28,11 +28,12 @@ public:
         return record;
     }
     template <class Record>
-    void take(Record& record) {
+    Record& take(Record& record) {
         static_assert(std::is_trivially_copyable_v<Record>);
         if (at_ + sizeof record > bytes_.size()) throw RankLost("a message from another rank is too short");
         std::memcpy(&record, &bytes_[at_], sizeof record);
         at_ += sizeof record;
+        return record;
     }
 
 private:

@@ -93,7 +93,7 @@ std::vector<std::uint32_t> contacts_by_id(const State& state) {
     order.reserve(contacts);
     // A copy of the scene that was reset since has none.
     const auto is_over = [&](std::uint32_t contact) { return state.is_newborn(state.copy_of(state.contacts[contact].a)); };
-    if (!state.reordered()) {
+    if (!state.reordered() || state.is_share()) {  // of a share in the order of its rows
         order.resize(contacts);
         std::iota(order.begin(), order.end(), 0u);
         if (state.has_copies()) std::erase_if(order, is_over);

@@ -16,7 +16,8 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
            (features.moving_parts ? physics::FEATURE_PARTS : 0) | (features.reordered ? physics::FEATURE_REORDERED : 0) |
            (features.joints ? physics::FEATURE_JOINTS : 0) | (features.sums ? physics::FEATURE_SUMS : 0) |
            (features.surfaces ? physics::FEATURE_SURFACES : 0) | (features.filters ? physics::FEATURE_FILTERS : 0) |
-           (features.copies ? physics::FEATURE_COPIES : 0) | (features.gravities ? physics::FEATURE_GRAVITIES : 0);
+           (features.copies ? physics::FEATURE_COPIES : 0) | (features.gravities ? physics::FEATURE_GRAVITIES : 0) |
+           (features.blocks ? physics::FEATURE_BLOCKS : 0);
 }
 
 struct Order {

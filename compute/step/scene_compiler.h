@@ -21,6 +21,9 @@ physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& s
 // The table of gravities, of copies of a scene.
 std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravities);
 
+// Half of a body's thinnest width (min_half_width in shaders/physics/collide/shapes.h), m.
+float least_half_width(const Shape& shape);
+
 // Whether a body or one of its parts has a collision filter.
 bool has_filter(const Body& body);
 

@@ -91,6 +91,11 @@ vec3 size_of_whole(const Shape& shape) {
 
 }  // namespace
 
+float least_half_width(const Shape& shape) {
+    const std::optional<SimpleShape> simple = simple_shape(shape);
+    return simple ? physics::min_half_width(simple_form(*simple)) : size_of_whole(shape).x;
+}
+
 physics::Pose SceneCompiler::start_of(const Body& body) {
     const auto* plane = std::get_if<Plane>(&body.shape);
     return {physics::flush_tiny(plane ? plane->normal * plane->offset : body.position), 0,

@@ -175,15 +175,15 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
          {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
         {{contacts, A::contacts, 1}, {impulses, A::contacts}}, physics::FEATURE_BOUNCES | felt});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
-        {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
+        {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
-        {{contacts, A::contacts, 1}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | felt});
+        {{contacts, A::contacts, 1}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
-                                       physics::FEATURE_SURFACES | felt;
+                                       physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "compute/step/scene_compiler.h"
 #include "compute/step/table_layout.h"
@@ -156,6 +157,7 @@ void State::note_content(std::uint32_t first_row, std::uint32_t count) {
         found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
         found.convex |= physics::is_general_convex(row.shape);
+        found.blocks |= physics::is_part(row) && row.shape != physics::SHAPE_TRIANGLE;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }
@@ -200,6 +202,10 @@ void State::allocate() {
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
         if ((all_ && !is_of_devices(static_cast<Table>(i))) || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
+}
+
+void State::allocate_all() {
+    if (!std::exchange(all_, true)) allocate();
 }
 
 void State::spare_part_rows(std::uint32_t offset, std::uint32_t count) {

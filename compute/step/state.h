@@ -9,11 +9,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compute/scene.h"
 #include "compute/settings.h"
 #include "compute/step/joint_groups.h"
+#include "compute/step/near_rows.h"
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
@@ -101,6 +103,7 @@ struct SceneFeatures {
     bool sums = false;       // contacts sum their impulses over the step
     bool copies = false;     // there are several copies of the scene
     bool gravities = false;  // whose gravity differs
+    bool blocks = false;     // there are compounds or meshes: pairs of bodies in several contacts
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -119,11 +122,12 @@ struct SceneFeatures {
                 .filters = true,
                 .sums = true,
                 .copies = true,
-                .gravities = true};
+                .gravities = true,
+                .blocks = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 18 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 19 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
@@ -191,6 +195,25 @@ struct State {
         return rows_;
     }
     void take_rows(std::vector<std::uint32_t> rows);
+
+    // Set in a rank's share of a world, which has rows of some bodies only (compute/distributed/share.h): the id of the first
+    // part.
+    std::optional<std::uint32_t> first_part_id;
+    bool is_share() const {
+        return first_part_id.has_value();
+    }
+    // Row of a body or part; NONE: a share has none.
+    std::uint32_t row_with(std::uint32_t id) const {
+        const std::uint32_t first = first_part_id.value_or(fixed().first_part);
+        return id < first ? row_of(id) : fixed().first_part + (id - first);
+    }
+    // For shares, whose `ids` are the caller's: the rows by id.
+    void assign_rows(std::vector<std::uint32_t> rows) {
+        rows_ = std::move(rows);
+    }
+    void assign_row(std::uint32_t id, std::uint32_t row) {
+        rows_[id] = row;
+    }
 
     // Records allocated, and records in use at present.
     std::size_t allocated(BufferLength length) const;
@@ -284,10 +307,19 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
     // Likewise: entries of cells whose bodies are inactive in this step.
     std::uint32_t still_entries = 0;
+    // Likewise: the cell of each entry of cells.
+    std::vector<physics::ivec3> entry_cells;
+    // Likewise: which rows are near each other.
+    NearRows near_rows;
     // Likewise: the least id of the partners in the contacts that each body owned in the last step.
     std::vector<std::uint32_t> least_partners;
+    std::vector<std::uint8_t> row_kinds;  // by row, its shape and whether it is inactive
     // Likewise: rows of the bodies that contacts move in this step, and of kinematic ones in motion.
     std::vector<std::uint32_t> movable_bodies, driven_bodies;
+    // Likewise: by row of a body, whether contacts move it, whichever rank does.
+    std::vector<std::uint8_t> movable;
+    // Likewise: the pairs of this step's fast bodies.
+    std::vector<std::uint32_t> fast_pairs;
     // Likewise: by row, what predict_impacts asks of a body's velocity.
     std::vector<std::uint8_t> paces;
     // The contacts of a pass: those of contacts_to_solve from `first` up to `last`, if there are so many; and of the blocks of
@@ -312,9 +344,11 @@ struct State {
     }
     // Likewise, if the gravity of copies differs: the parameters of each copy.
     std::vector<physics::Parameters> felt;
-    // Likewise: runs of contacts_to_solve that share no group of SIMD lanes, of one copy each, or with and without ghosts.
+    // Likewise: runs of contacts_to_solve that share no group of SIMD lanes, of one copy each, or with and without ghosts; those
+    // of blocks (contact_block.h) are in no group.
     struct Run {
         std::uint32_t first, last, copy;
+        bool of_blocks;
     };
     std::vector<Run> solver_runs;
     std::uint32_t inner_contacts = 0;  // the first ones of contacts_to_solve, without ghosts of other ranks
@@ -342,6 +376,7 @@ struct State {
     // For the scene compiler and editor: allocates every table; notes features of new rows; number of buckets for a
     // number of bodies.
     void allocate();
+    void allocate_all();  // and from now on every table
     void note_content(std::uint32_t first_row, std::uint32_t count);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // Appends a body whose row is its id.

@@ -325,7 +325,7 @@ World::Impl::Own World::Impl::take_world(ByteReader& in) {
     }
     for (auto& grip : own.grips) {
         if (!in.take<bool>()) continue;
-        grip.emplace();
+        grip = std::remove_reference_t<decltype(*grip)>{};
         grip->body = in.take<std::uint64_t>();
         grip->anchor = in.take<vec3>();
         grip->target = in.take<vec3>();

@@ -72,7 +72,7 @@ void World::Impl::pack_hulls(std::size_t before, std::uint32_t body, TableRanges
     const auto count = static_cast<std::uint32_t>(state.hulls.size() - before);
     const auto run = std::find_if(spare_hulls.begin(), spare_hulls.end(), [&](const auto& one) { return one.second >= count; });
     if (count == 0 || run == spare_hulls.end()) return;
-    const auto [place, length] = *run;
+    const std::uint32_t place = run->first, length = run->second;
     spare_hulls.erase(run);
     if (length > count) spare_hulls[place + count] = length - count;
     std::copy(state.hulls.begin() + static_cast<std::ptrdiff_t>(before), state.hulls.end(), state.hulls.begin() + place);

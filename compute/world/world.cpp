@@ -53,7 +53,8 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
     : scene(std::move(s.scene)),
       settings(t),
       runner(std::move(r)),
-      state(scene, settings, runner->group_size(), runner->in_place(), static_cast<std::uint32_t>(copies),
+      // On several ranks its share needs the working tables, or make_whole() makes them.
+      state(scene, settings, runner->group_size(), runner->in_place() && runner->ranks() == 1, static_cast<std::uint32_t>(copies),
             static_cast<std::uint32_t>(runner->ranks())),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
@@ -118,6 +119,7 @@ void World::Impl::step() {
     broken = true;
     const auto begin = Timeline::Clock::now();
     const std::uint64_t steps_before = steps;
+    share_out_when_due();
     catch_up();
     keep_order();
     take_up_grips();
@@ -139,6 +141,7 @@ void World::Impl::step() {
     release_indices();
     ++steps;
     note_stillness();
+    if (shared && state.counted().quarantined > 0) make_whole();
     if (watched) {
         const TimedSlice slice(timeline.get(), "events");
         runner->download(events.needed(scene, state));
@@ -151,17 +154,19 @@ void World::Impl::step() {
 int World::Impl::steps_alone(int count) {
     if (std::any_of(grips.begin(), grips.end(), [](const auto& grip) { return grip.has_value(); })) return 0;
     broken = true;
+    share_out_when_due();
     state.fixed().actions = 0;
     state.fixed().redo = 0;
     const std::uint64_t before = steps;
     const auto begin = Timeline::Clock::now();
-    const bool all = runner->steps(count, steps);
+    const bool all = runner->steps(runner->ranks() > 1 ? 1 : count, steps);
     if (!all) {
         do make_room_for_lists();
         while (!runner->step());
         ++steps;
     }
     note_stillness();
+    if (shared && state.counted().quarantined > 0) make_whole();
     if (timeline) tell_timeline(begin, before);
     broken = false;
     return static_cast<int>(steps - before);
@@ -178,43 +183,55 @@ World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runne
           std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), std::move(runner), copies)) {}
 World::World(const Scene& scene, const Settings& settings, int threads)
     : World(scene, settings, make_reference_runner(threads)) {}
+World::Interior::Interior(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+World::Interior::Interior(Interior&&) noexcept = default;
+World::Interior& World::Interior::operator=(Interior&&) noexcept = default;
+World::Interior::~Interior() = default;
+World::Impl& World::Interior::operator*() const {
+    impl_->make_whole();
+    return *impl_;
+}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::step(int count) {
     constexpr int most_alone = 64;  // between them the memory order is checked
+    Impl& in = interior_.as_it_is();
     while (count > 0) {
-        if (interior_->is_still()) return interior_->pass_over(count);
-        interior_->step();
+        if (in.is_still()) return in.pass_over(count);
+        in.step();
         --count;
-        if (count > 0 && !interior_->events.settings().any())
-            if (const int alone = std::min({count, most_alone, interior_->steps_until_arrival()}); alone > 0)
-                count -= interior_->steps_alone(alone);
+        if (count > 0 && !in.events.settings().any())
+            if (const int alone = std::min({count, most_alone, in.steps_until_arrival()}); alone > 0)
+                count -= in.steps_alone(alone);
     }
 }
 
 std::uint64_t World::steps() const {
-    return interior_->steps;
+    return interior_.as_it_is().steps;
 }
 std::size_t World::bodies_there() const {
-    const std::vector<std::uint8_t>& gone = interior_->gone;
-    if (!interior_->state.has_fractures())
-        return interior_->scene.bodies.size() - static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
+    const Impl& in = interior_.as_it_is();
+    const std::vector<std::uint8_t>& gone = in.gone;
+    if (!in.state.has_fractures())
+        return in.bodies() - static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
     const std::vector<BodyState> all = bodies();
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.exists; }));
 }
 double World::time() const {
-    return static_cast<double>(interior_->steps) / interior_->settings.rate;
+    return static_cast<double>(steps()) / settings().rate;
 }
 const Scene& World::scene() const {
-    return interior_->scene;
+    Impl& in = interior_.as_it_is();
+    if (in.shared) in.make_whole();
+    return in.scene;
 }
 const Settings& World::settings() const {
-    return interior_->settings;
+    return interior_.as_it_is().settings;
 }
 Runner& World::runner() {
-    return *interior_->runner;
+    return *interior_.as_it_is().runner;
 }
 
 void World::apply_force(std::size_t body, vec3 force, vec3 offset) {
@@ -259,8 +276,8 @@ BodyState World::Impl::body_state(std::size_t i) const {
 }
 
 std::vector<Quarantine> World::quarantines() const {
+    if (interior_.as_it_is().state.counted().quarantined == 0) return {};
     const Impl& in = *interior_;
-    if (in.state.counted().quarantined == 0) return {};
     in.bring(body_ranges);
     in.runner->download({{Table::masses, 0, in.state.fixed().bodies}});
     std::vector<Quarantine> found;
@@ -325,6 +342,7 @@ ContactSums World::Impl::all_contact_sums() const {
 }
 
 Statistics World::statistics() const {
+    if (interior_.as_it_is().shared) return interior_.as_it_is().statistics_of_shares();
     interior_->bring(body_ranges);
     interior_->bring(joint_ranges);
     Statistics found = scree::statistics_of(interior_->scene, interior_->state, interior_->all_contact_sums());
@@ -344,28 +362,29 @@ const State& World::state() const {
 }
 
 std::uint64_t World::state_hash() const {
+    if (interior_.as_it_is().shared) return interior_.as_it_is().hash_of_shares();
     interior_->bring(body_ranges);
     return hash_of(interior_->state);
 }
 
 std::uint64_t World::buffer_growths() const {
-    return interior_->growths;
+    return interior_.as_it_is().growths;
 }
 std::size_t World::buffer_bytes() const {
-    return interior_->state.bytes();
+    return interior_.as_it_is().state.bytes();
 }
 void World::set_profiling(bool on) {
-    interior_->runner->set_profiling(on);
+    interior_.as_it_is().runner->set_profiling(on);
 }
 void World::set_timeline(std::shared_ptr<Timeline> timeline) {
-    interior_->runner->set_timeline(timeline);
-    interior_->timeline = std::move(timeline);
+    interior_.as_it_is().runner->set_timeline(timeline);
+    interior_.as_it_is().timeline = std::move(timeline);
 }
 StageTimes World::stage_times() const {
-    return interior_->runner->stage_times();
+    return interior_.as_it_is().runner->stage_times();
 }
 StageTimes World::last_stage_times() const {
-    return interior_->runner->last_stage_times();
+    return interior_.as_it_is().runner->last_stage_times();
 }
 
 }  // namespace scree

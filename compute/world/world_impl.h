@@ -130,6 +130,25 @@ struct World::Impl {
 
     ContactSums all_contact_sums() const;
 
+    // shares.cpp
+    struct Shared {
+        std::size_t bodies = 0, per_rank = 0, first = 0;  // of the whole scene; at home on each rank; the first at home here
+        std::vector<Body> home;
+        std::map<std::size_t, Body> still;  // all that are not dynamic
+        std::vector<Plane> planes;          // likewise
+        std::vector<Hull> hulls;            // of all bodies, each once
+        std::map<const HullForm*, std::size_t> hull_places;
+    };
+    std::optional<Shared> shared;  // while this rank has its share alone
+    int steps_until_shared = 0;
+    bool can_be_shared() const;
+    void share_out_when_due();  // before a step
+    void make_whole();
+    std::size_t bodies() const { return shared ? shared->bodies : scene.bodies.size(); }
+    std::vector<BodyRecord> records_at_home() const;
+    std::uint64_t hash_of_shares() const;
+    Statistics statistics_of_shares() const;
+
     // joints.cpp
     void require_joint_index(std::size_t joint) const;  // throws std::out_of_range
     void require_joint(std::size_t joint) const;        // likewise for one that was removed

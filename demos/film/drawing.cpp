@@ -129,8 +129,9 @@ std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::Sha
 Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
                  const CopiesShown& shown, bool from_host)
     : world_(world), word_(canvas), machine_(machine), options_(options), shown_(shown) {
-    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0 && !from_host;
-    if (from_host && canvas == "auto" && machine.device) word_ = "vulkan";
+    const bool by_vulkan = (canvas == "vulkan" && machine.device) || (canvas == "auto" && machine.draws());
+    from_device_ = by_vulkan && shown.count == 0 && !from_host;
+    if (from_host && by_vulkan) word_ = "vulkan";
     update();
 }
 
@@ -139,6 +140,8 @@ std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
+    } catch (const host::DeviceLost&) {
+        throw;
     } catch (const host::DeviceError& error) {
         throw UsageError(error.what());
     }

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/state.h"
+#include "compute/step/scene_compiler.h"
 
 namespace scree::demos {
 
@@ -24,14 +24,10 @@ constexpr double worth_telling = 0.2;            // of the greatest kinetic ener
 constexpr double soft = 0.005;                   // of the height, by which what is too heavy sinks and rises
 constexpr double restless_speed = 0.3;           // m/s, of a scene at rest but for jitter
 
-double median_half_width(const World& world) {
+double median_half_width(const Scene& scene) {
     std::vector<double> widths;
-    const State& state = world.state();
-    for (std::size_t i = 0; i < world.scene().bodies.size(); ++i) {
-        if (world.scene().bodies[i].motion != Motion::dynamic) continue;
-        const physics::BodyProperties& body = state.properties[state.row_of(i)];
-        widths.push_back(static_cast<double>(physics::min_half_width(body.shape, body.size)));
-    }
+    for (const Body& body : scene.bodies)
+        if (body.motion == Motion::dynamic) widths.push_back(static_cast<double>(least_half_width(body.shape)));
     if (widths.empty()) return 0;
     const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
     std::nth_element(widths.begin(), middle, widths.end());
@@ -94,7 +90,7 @@ bool is_driven(const Scene& scene) {
 Adviser::Adviser(const World& world, bool commanded, bool sees_contacts)
     : sees_contacts_(sees_contacts),
       closed_(!commanded && !is_driven(world.scene())),
-      half_width_(median_half_width(world)),
+      half_width_(median_half_width(world.scene())),
       dynamic_(static_cast<std::size_t>(std::count_if(world.scene().bodies.begin(), world.scene().bodies.end(),
                                                       [](const Body& body) { return body.motion == Motion::dynamic; }))),
       steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {}

@@ -24,7 +24,10 @@ struct Backend {
 
     std::unique_ptr<Runner> make_runner() const;
     std::string driver() const;  // of the device, with its version; empty: the CPU
-    double copy_speed() const;   // bytes per second, reads plus writes (host/copy_speed.h); takes a moment
+    bool draws() const;          // whether it is a device with graphics
+    // Where the device's arithmetic gives other bits than the CPU's (compute/device/arithmetic_check.h); empty: nowhere.
+    std::string arithmetic_fault() const;
+    double copy_speed() const;  // bytes per second, reads plus writes (host/copy_speed.h); takes a moment
     // Throws WorkFailed with the validation layers' messages, if there are any.
     void require_valid() const;
 };

@@ -409,6 +409,7 @@ int run(RunOptions options) {
     }
     if (pictures) report.canvas = pictures->canvas();
     report.driver = machine.driver();
+    report.arithmetic_fault = machine.arithmetic_fault();
     report.command_line = options.command_line;
     if (find_demo(options.scene.name)) report.seed = options.scene.seed;
     preparing.reset();
@@ -470,6 +471,19 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
 }
 
 // What does not work on several ranks.
+void require_distinct_outputs(const RunOptions& options) {
+    require_distinct({{"--video", options.pictures.video},
+                      {"--preview", options.pictures.preview},
+                      {"--raw", options.pictures.raw},
+                      {"--cameras", options.pictures.cameras},
+                      {"--report", options.report},
+                      {"--save", options.save},
+                      {"--checkpoint", options.checkpoints.file},
+                      {"--trajectory", options.trajectory.file},
+                      {"--export", options.animation.file},
+                      {"--trace", options.trace.file}});
+}
+
 void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) {
     if (options.machine.backend == "vulkan") throw UsageError("--distributed: runs on CPUs so far, not with --backend vulkan");
     for (const char* option : {"--copies", "--device", "--validate"})
@@ -487,7 +501,8 @@ void make_silent(RunOptions& options) {
 }
 
 int run(const CLI::App& command, RunOptions options) {
-    options.pictures.require_sense(command, options.report);
+    options.pictures.require_sense(command);
+    require_distinct_outputs(options);
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
     require_sense(command, options.animation);

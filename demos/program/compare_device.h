@@ -15,7 +15,8 @@ namespace scree::demos {
 
 struct DeviceComparison {
     LockstepResult result;
-    std::string device;  // name
+    std::string device;            // name
+    std::string arithmetic_fault;  // where the device's bits are not the CPU's; empty: nowhere
 };
 
 // `copies`: of the scene; 0: the scene itself. `from`: the state of a checkpoint to begin with, steps counted with its own. Until

@@ -26,7 +26,8 @@ void on_signal(int) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     const long long moment = now.tv_sec * 1000LL + now.tv_nsec / 1000000 + 1;
     long long first = 0;
-    if (wished.compare_exchange_strong(first, moment) || moment - first <= same_wish) return;
+    const bool is_first = wished.compare_exchange_strong(first, moment) || moment - first <= same_wish;
+    if (is_first && !host::is_waiting()) return;
     host::remove_unfinished();
     _exit(interrupted);
 }

@@ -83,7 +83,7 @@ struct PictureOptions {
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
     // Throws UsageError for an output without a name, for picture options without an output, and for two outputs
     // (`report` among them) to one file.
-    void require_sense(const CLI::App& command, const std::string& report) const;
+    void require_sense(const CLI::App& command) const;
     bool takes_output() const { return raw == "-"; }  // frames go to the standard output, hence text does not
 };
 

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "demos/film/channels.h"
 #include "demos/film/style.h"
@@ -161,27 +160,12 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
         ->group(group);
 }
 
-std::string place_of(const std::string& file) {
-    std::error_code ignored;
-    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
-    return std::filesystem::is_other(place) ? "" : place.string();  // devices such as /dev/null may be named twice
-}
-
 }  // namespace
 
-void PictureOptions::require_sense(const CLI::App& command, const std::string& report) const {
+void PictureOptions::require_sense(const CLI::App& command) const {
     for (const char* option : {"--frames", "--video", "--preview", "--raw", "--cameras", "--report"}) {
         for (const std::string& name : command.get_option(option)->results())
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
-    }
-    const std::pair<const char*, const std::string*> files[] = {
-        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--cameras", &cameras}, {"--report", &report}};
-    std::map<std::string, const char*> taken;
-    for (const auto& [option, name] : files) {
-        const std::string place = name->empty() || *name == "-" ? "" : place_of(*name);
-        if (place.empty()) continue;
-        const auto [other, is_new] = taken.emplace(place, option);
-        if (!is_new) throw UsageError(fmt::format("{} and {}: both are {}; name another file", other->second, option, *name));
     }
     if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
     if (channels.empty() && command.count("--channel-files") != 0)

@@ -8,10 +8,21 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "demos/program/exit_status.h"
 
 namespace scree::demos {
+
+namespace {
+
+std::string place_of(const std::string& file) {
+    std::error_code ignored;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+    return std::filesystem::is_other(place, ignored) ? "" : place.string();  // devices such as /dev/null may be named twice
+}
+
+}  // namespace
 
 void require_writable_file(const char* option, const std::string& name) {
     if (name.empty() || name == "-") return;
@@ -36,6 +47,16 @@ void require_writable_file(const char* option, const std::string& name) {
     }
     ::close(made);
     ::unlink(trial.c_str());
+}
+
+void require_distinct(std::initializer_list<NamedOutput> outputs) {
+    std::map<std::string, const char*> taken;
+    for (const auto& [option, name] : outputs) {
+        const std::string place = name.empty() || name == "-" ? "" : place_of(name);
+        if (place.empty()) continue;
+        const auto [other, is_new] = taken.emplace(place, option);
+        if (!is_new) throw UsageError(fmt::format("{} and {}: both are {}; name another file", other->second, option, name));
+    }
 }
 
 }  // namespace scree::demos

@@ -2,6 +2,7 @@
 #include "demos/program/ranks.h"
 
 #include <dlfcn.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <filesystem>
@@ -35,6 +36,10 @@ void* load_module() {
 }  // namespace
 
 std::shared_ptr<Exchange> join_ranks(int& neighbours) {
+    // Tables that are freed go back to the system: by itself the library keeps them once they are larger than ever before.
+#ifdef M_MMAP_THRESHOLD
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
     void* const join = ::dlsym(load_module(), module_function);
     if (!join) throw UsageError(fmt::format("--distributed: {} is of another scree", module_name));
     return std::shared_ptr<Exchange>(reinterpret_cast<JoinRanks*>(join)(&neighbours));

@@ -120,6 +120,7 @@ std::string json_of(const RunReport& r) {
         {"backend", r.backend},
         {"device", r.device},
         {"driver", r.driver},
+        {"arithmetic_fault", r.arithmetic_fault.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(r.arithmetic_fault)},
         {"canvas", r.canvas},
         {"bodies", s.bodies},
         {"broken", s.broken},
@@ -197,7 +198,8 @@ std::string summary_of(const RunReport& r) {
                                    s.joint_force_max, s.joint_torque_max));
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
-    line("state hash", hash_text(r.state_hash));
+    line("state hash",
+         hash_text(r.state_hash) + (r.arithmetic_fault.empty() ? "" : ", of this device alone: its " + r.arithmetic_fault));
     if (!r.ranks.empty()) {
         double most = 0, messages = 0;
         for (const RunReport::RankCost& one : r.ranks) {

@@ -16,6 +16,7 @@ namespace scree::demos {
 struct RunReport {
     std::string name, backend, device;
     std::string driver;                 // of the device, with its version; empty: the CPU
+    std::string arithmetic_fault;       // where the device's bits are not the CPU's; empty: nowhere
     std::string command_line;           // as given
     std::string started_at;             // date and time, UTC
     std::optional<std::uint64_t> seed;  // of a demo

@@ -60,6 +60,7 @@ const std::vector<Demo>& all_demos() {
         {"fragments", "bodies that break in empty space keep their momentum", 64, false, fragments, true},
 
         {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
+        {"feet", "columns of tables, benches and stools stand, and lie still", 25, false, feet, true},
         {"rollmesh", "a ball rolls over 10,000 triangles in a plane as over a plane", 1, false, rollmesh, true},
         {"hulls1m", "hulls of 1 m settle in a pit", 10000, true, hulls1m, true},
 

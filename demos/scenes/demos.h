@@ -91,6 +91,7 @@ DemoScene mix1m(const DemoOptions&);
 DemoScene overlap(const DemoOptions&);
 DemoScene solids(const DemoOptions&);
 DemoScene compounds(const DemoOptions&);
+DemoScene feet(const DemoOptions&);
 DemoScene rollmesh(const DemoOptions&);
 DemoScene hulls1m(const DemoOptions&);
 DemoScene onset(const DemoOptions&);

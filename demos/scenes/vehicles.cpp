@@ -115,7 +115,7 @@ Indices add_loose(Scene& scene) {
     for (int row = 0; row < 3; ++row)
         for (int k = 0; k < 6; ++k)
             add(Box{vec3(0.3f)}, {44 + 0.62f * (static_cast<float>(k) - 2.5f), 0.3f + 0.6f * static_cast<float>(row), 88}, 40);
-    for (int k = 0; k < 4; ++k) add(Cylinder{0.3f, 0.45f}, {42.8f + 0.8f * static_cast<float>(k), 0.45f, 66}, 60);
+    for (int k = 0; k < 4; ++k) add(Cylinder{0.4f, 0.55f}, {42.6f + 0.9f * static_cast<float>(k), 0.55f, 66}, 40);
     for (int k = 0; k < 5; ++k) add(Sphere{0.35f}, {42.4f + 0.8f * static_cast<float>(k), 0.35f, 16}, 40);
     return loose;
 }

@@ -1,5 +1,5 @@
-// Trials of compounds and meshes: tables of five boxes carry columns, bars tip by their centre of mass, and a ball
-// rolls over a triangulated plane.
+// Trials of compounds and meshes: tables of five boxes carry columns, what has feet stands on what has feet, bars tip by their
+// centre of mass, and a ball rolls over a triangulated plane.
 #include <algorithm>
 #include <cmath>
 
@@ -14,13 +14,40 @@ namespace scree::demos {
 namespace {
 
 // A plate of 1.2 by 0.1 by 0.8 m on four legs, 0.8 m high; its origin is in the middle of the floor under it.
-Compound table() {
+Compound table(float size = 1) {
     Compound compound;
-    compound.parts.push_back({.shape = Box{{0.6f, 0.05f, 0.4f}}, .position = {0, 0.75f, 0}});
+    compound.parts.push_back({.shape = Box{vec3(0.6f, 0.05f, 0.4f) * size}, .position = vec3(0, 0.75f, 0) * size});
     for (const float x : {-0.5f, 0.5f})
         for (const float z : {-0.3f, 0.3f})
-            compound.parts.push_back({.shape = Box{{0.05f, 0.35f, 0.05f}}, .position = {x, 0.35f, z}});
+            compound.parts.push_back({.shape = Box{vec3(0.05f, 0.35f, 0.05f) * size}, .position = vec3(x, 0.35f, z) * size});
     return compound;
+}
+// A seat of 1.6 by 0.08 by 0.4 m on two boards, 0.48 m high.
+Compound bench() {
+    Compound compound;
+    compound.parts.push_back({.shape = Box{{0.8f, 0.04f, 0.2f}}, .position = {0, 0.44f, 0}});
+    for (const float x : {-0.65f, 0.65f}) compound.parts.push_back({.shape = Box{{0.05f, 0.2f, 0.2f}}, .position = {x, 0.2f, 0}});
+    return compound;
+}
+// A disc 0.5 m across on three round legs, 0.51 m high.
+Compound stool() {
+    Compound compound;
+    compound.parts.push_back({.shape = Cylinder{0.25f, 0.03f}, .position = {0, 0.48f, 0}});
+    for (const float at : {0.0f, 120.0f, 240.0f})
+        compound.parts.push_back({.shape = Cylinder{0.025f, 0.225f},
+                                  .position = {0.18f * std::cos(at * degrees), 0.225f, 0.18f * std::sin(at * degrees)}});
+    return compound;
+}
+
+// Adds a column of them about the vertical through `at`, each turned against the one below by up to 5 degrees and off by up to
+// 1% of its height.
+void add_column(Scene& scene, const Compound& one, float height, int count, vec3 at, Random& random) {
+    float yaw = random.between(0, 90);
+    for (int k = 0; k < count; ++k) {
+        const vec3 off(random.between(-0.01f, 0.01f), 0, random.between(-0.01f, 0.01f));
+        add_body(scene, one, at + off * height + vec3(0, height * static_cast<float>(k), 0), turned({0, 1, 0}, yaw * degrees));
+        yaw += random.between(-5, 5);
+    }
 }
 
 // A bar of 1.6 m along x whose last eighth is ten times as dense, which shifts the centre of mass.
@@ -82,6 +109,20 @@ DemoScene compounds(const DemoOptions&) {
     Promise promise(all_stay("tables, and columns of three boxes on them", tables, 0.0009),
                     all_stay("a bar whose centre of mass is 2 cm before the edge", {bars[0]}, 0.000075), tips(bars[1]));
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 4, std::move(promise)});
+}
+
+DemoScene feet(const DemoOptions& options) {
+    Random random(options.seed);
+    Scene scene;
+    scene.bodies.push_back(ground());
+    float x = -5;
+    for (const int count : {2, 3, 5}) add_column(scene, table(), 0.8f, count, {x += 1.8f, 0, 0}, random);
+    add_column(scene, bench(), 0.48f, 5, {x += 1.8f, 0, 0}, random);
+    for (const int count : {2, 5}) add_column(scene, stool(), 0.51f, count, {x += 1.5f, 0, 0}, random);
+    add_column(scene, table(0.1f), 0.08f, 3, {x += 1, 0, 0}, random);
+    const vec3 low(-4, 0, -1), high(x + 0.5f, 4, 1);
+    Promise promise(drift_below(0.0019), end_speed_below(rest_speed, 10), end_spin_below(rest_spin, 10));
+    return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20, std::move(promise)});
 }
 
 DemoScene rollmesh(const DemoOptions& options) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <system_error>
 
 #include "host/files/partial_file.h"
@@ -37,10 +38,15 @@ private:
     int number_;
 };
 
+// Of what tells no size beforehand, such as a pipe.
+constexpr std::size_t most_of_a_pipe = std::size_t{2} << 30;
+
 std::string read_all(const Descriptor& file, const std::filesystem::path& path) {
     std::string text;
     char block[65536];
     for (;;) {
+        if (text.size() > most_of_a_pipe && !std::filesystem::is_regular_file(path))
+            throw FileError("cannot read " + path.string() + ": it does not end after " + std::to_string(text.size()) + " bytes");
         const ssize_t count = ::read(file.number(), block, sizeof block);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail("read", path, errno);
@@ -50,6 +56,7 @@ std::string read_all(const Descriptor& file, const std::filesystem::path& path) 
 }
 
 void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
+    const Waiting for_reader;
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (file.number() < 0) fail("write", path, errno);
     if (const int error = write_all(file.number(), bytes.data(), bytes.size())) fail("write", path, error);
@@ -65,8 +72,14 @@ std::filesystem::path cache_folder() {
 }
 
 std::string read_text(const std::filesystem::path& path) {
+    std::error_code ignored;
+    std::optional<Waiting> for_writer;
+    if (std::filesystem::is_other(path, ignored)) for_writer.emplace();
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.number() < 0) fail("read", path, errno);
+    struct stat status {};
+    if (::fstat(file.number(), &status) == 0 && S_ISCHR(status.st_mode) && ::isatty(file.number()) == 0)
+        throw FileError("cannot read " + path.string() + ": it is a device, which may never end");
     return read_all(file, path);
 }
 

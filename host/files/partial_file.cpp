@@ -56,6 +56,20 @@ void remove_if_left(const std::filesystem::path& path, pid_t process) {
 
 }  // namespace
 
+namespace {
+std::atomic<int> waits{0};
+}
+
+Waiting::Waiting() {
+    ++waits;
+}
+Waiting::~Waiting() {
+    --waits;
+}
+bool is_waiting() noexcept {
+    return waits > 0;
+}
+
 std::filesystem::path target_of_links(const std::filesystem::path& path) {
     std::error_code wrong;
     std::filesystem::path target = std::filesystem::canonical(path, wrong);

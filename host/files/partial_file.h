@@ -7,6 +7,16 @@
 
 namespace scree::host {
 
+// In its lifetime a process may wait for another one, for ever (a pipe that nobody opens), so that a first signal must end it.
+class Waiting {
+public:
+    Waiting();
+    ~Waiting();
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+};
+bool is_waiting() noexcept;
+
 // Registers a temporary file for the object's lifetime. The destructor does not remove the file; its owner does.
 class Unfinished {
 public:

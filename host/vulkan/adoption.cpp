@@ -47,7 +47,6 @@ VulkanFunctions functions_of(const HostDevice& made) {
 void require_usable(const HostDevice& made, const DeviceReport& report, const EnabledFeatures& enabled,
                     const VkPhysicalDeviceLimits& limits, const std::vector<VkQueueFamilyProperties>& families) {
     std::vector<std::string> lacks = report.lacks;
-    std::erase(lacks, "a queue with graphics and compute");  // one with compute is enough
     if (made.api_version < VK_API_VERSION_1_2) lacks.push_back("an instance made for Vulkan 1.2 (api_version)");
     if (!enabled.timelines) lacks.push_back("the feature timelineSemaphore, which was not turned on when it was made");
     if (!enabled.addresses && limits.maxPerStageDescriptorStorageBuffers < tables_of_a_step.storage)

@@ -79,12 +79,16 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
     name_ = name;
     const bool addressed = use != BufferUse::readback && device_->report().has_addresses;
     if (use != BufferUse::readback && !addressed) require_bindable(*device_, name, bytes);
+    if (const std::uint64_t most = device_->report().largest_buffer; bytes > most)
+        throw DeviceError(of_size(name, bytes) + " exceeds what " + device_->report().name + " allocates at once, " +
+                          std::to_string(most) + " bytes (maxMemoryAllocationSize, maxBufferSize)");
     // Vulkan forbids empty buffers, and vkCmdFillBuffer needs whole words.
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = (std::max<std::size_t>(bytes, 1) + 15) / 16 * 16;
     info.usage = usage_of(use) | (addressed ? VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT : 0);
-    check(vk.vkCreateBuffer(device_->handle(), &info, nullptr, &buffer_), ("creating " + of_size(name, bytes)).c_str());
+    check_made(vk.vkCreateBuffer(device_->handle(), &info, nullptr, &buffer_), ("creating " + of_size(name, bytes)).c_str(),
+               buffer_);
     device_->set_name(VK_OBJECT_TYPE_BUFFER, buffer_, name);
     VkMemoryRequirements needs;
     vk.vkGetBufferMemoryRequirements(device_->handle(), buffer_, &needs);
@@ -97,7 +101,8 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
     flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     if (addressed) allocation.pNext = &flags;
-    check(vk.vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_), ("memory for " + of_size(name, bytes)).c_str());
+    check_made(vk.vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_),
+               ("memory for " + of_size(name, bytes)).c_str(), memory_);
     device_->set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_, name);
     check(vk.vkBindBufferMemory(device_->handle(), buffer_, memory_, 0), ("memory for " + of_size(name, bytes)).c_str());
     if (choice.mapped) {

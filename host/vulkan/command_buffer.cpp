@@ -15,20 +15,23 @@ void check_range(const Buffer& buffer, std::size_t bytes, std::size_t offset) {
                             " of a buffer of " + std::to_string(buffer.bytes()));
 }
 
-// A global memory barrier, since a stage writes several buffers and the next reads most of them.
-void all_memory(const VulkanFunctions& vk, VkCommandBuffer commands, VkPipelineStageFlags more_stages,
-                VkAccessFlags more_access) {
+// A global memory barrier, since a stage writes several buffers and the next reads most of them. Queues that compute only
+// know no vertices.
+void all_memory(const Device& device, VkCommandBuffer commands, VkPipelineStageFlags more_stages, VkAccessFlags more_access) {
+    if (device.report().has_graphics) {
+        more_stages |= VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
+        more_access |= VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT;
+    }
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT |
-                            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
-                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | more_access;
-    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                                VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                                VK_PIPELINE_STAGE_TRANSFER_BIT | more_stages,
-                            0, 1, &barrier, 0, nullptr, 0, nullptr);
+                            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+                            more_access;
+    device.vk().vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | more_stages,
+        0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 }  // namespace
@@ -52,12 +55,12 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     queries.queryCount = timestamps;
     const bool timed = timestamps > 0 && device_->timestamp_bits() > 0;
 
-    VkResult result = vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_);
+    check(vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_), "beginning a command buffer");
     info.commandPool = pool_;
-    if (result == VK_SUCCESS) result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
+    VkResult result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
     if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
     if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
-    if (result != VK_SUCCESS && pool_) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
+    if (result != VK_SUCCESS) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
     check(result, "beginning a command buffer");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "recording");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "recording");
@@ -129,7 +132,7 @@ void CommandBuffer::dispatch_indirect(const Buffer& arguments, std::size_t offse
 }
 
 void CommandBuffer::barrier() {
-    all_memory(device_->vk(), commands_, 0, 0);
+    all_memory(*device_, commands_, 0, 0);
 }
 
 void CommandBuffer::zero(const Buffer& buffer) {
@@ -154,7 +157,7 @@ void CommandBuffer::timestamp() {
 
 void CommandBuffer::end() {
     // Only the last barrier includes the host: on a discrete GPU that costs a cache flush each time.
-    all_memory(device_->vk(), commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
+    all_memory(*device_, commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
     check(device_->vk().vkEndCommandBuffer(commands_), "ending a command buffer");
 }
 

@@ -75,7 +75,7 @@ const DeviceReport& choose(const std::vector<DeviceReport>& reports, const std::
     if (which.empty()) {
         for (const DeviceReport& report : reports) {
             if (!report.lacks.empty()) continue;
-            if (!chosen || (chosen->is_processor && !report.is_processor)) chosen = &report;
+            if (!chosen || report.kind < chosen->kind) chosen = &report;
         }
     } else if (is_number(which)) {
         const std::size_t index = std::stoul(which);
@@ -123,7 +123,9 @@ struct Device::Impl {
 void check(VkResult result, const char* what) {
     if (result == VK_SUCCESS) return;
     const char* name = result_name(result);
-    throw DeviceError(std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result)));
+    const std::string message = std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result));
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+    throw DeviceError(message);
 }
 
 Device::Device() : interior_(std::make_unique<Impl>()) {}
@@ -139,7 +141,9 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     for (VkPhysicalDevice one : physical) reports.push_back(describe(in.vk, one, static_cast<int>(reports.size())));
     in.report = choose(reports, options.which);
     in.physical = physical[static_cast<std::size_t>(in.report.index)];
-    in.family = static_cast<std::uint32_t>(find_queue_family(in.vk, in.physical, &in.timestamp_bits));
+    const QueueFamily family = find_queue_family(in.vk, in.physical);
+    in.family = static_cast<std::uint32_t>(family.index);
+    in.timestamp_bits = family.timestamp_bits;
     VkPhysicalDeviceProperties properties;
     in.vk.vkGetPhysicalDeviceProperties(in.physical, &properties);
     in.limits = properties.limits;
@@ -152,6 +156,8 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     if (options.without_texels) in.report.prefers_texels = false;
+    if (options.without_graphics) in.report.has_graphics = false;
+    if (options.largest_buffer) in.report.largest_buffer = std::min(in.report.largest_buffer, options.largest_buffer);
     if (options.largest_binding) in.report.largest_binding = std::min(in.report.largest_binding, options.largest_binding);
     VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
     addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
@@ -172,7 +178,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     info.enabledExtensionCount = options.window_extensions.empty() ? 0 : 1;
     info.ppEnabledExtensionNames = &swapchain;
-    check(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str());
+    check_made(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str(), in.device);
     if (const char* missing = in.vk.load_device(in.device)) {
         throw DeviceError("the driver of " + in.report.name + " lacks " + missing);
     }
@@ -205,6 +211,7 @@ std::shared_ptr<Device> Device::adopt(const HostDevice& made) {
     in.queue = made.queue;
     in.family = made.queue_family;
     in.timestamp_bits = families[made.queue_family].timestampValidBits;
+    in.report.has_graphics = (families[made.queue_family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
     if (made.queue_mutex) in.queue_mutex = made.queue_mutex;
     in.vk.vkGetPhysicalDeviceMemoryProperties(in.physical, &in.memory);
     in.cache = std::make_unique<PipelineCache>(in.vk, in.physical, in.device);
@@ -216,7 +223,7 @@ Device::~Device() {
     Impl& in = *interior_;
     if (!in.device) return;
     if (in.is_adopted)
-        wait_idle();
+        settle();
     else if (in.vk.vkDeviceWaitIdle)
         in.vk.vkDeviceWaitIdle(in.device);
     in.pipelines.reset();
@@ -308,13 +315,26 @@ Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& comma
     VkFenceCreateInfo fence{};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     check(device.vk().vkCreateFence(device.handle(), &fence, nullptr, &fence_), "creating a fence");
+    try {
+        for (std::size_t i = 0; i < commands.size(); ++i) {
+            const bool is_last = i + 1 == commands.size();
+            submit_one(device, commands[i], i == 0 ? after : Moment{}, is_last ? reaches : Moment{},
+                       is_last ? fence_ : VK_NULL_HANDLE);
+        }
+    } catch (...) {
+        device.vk().vkDestroyFence(device.handle(), fence_, nullptr);
+        throw;
+    }
+}
+
+void Submission::submit_one(Device& device, VkCommandBuffer commands, Moment after, Moment reaches, VkFence fence) {
     const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     VkTimelineSemaphoreSubmitInfo values{};
     values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-    info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
-    info.pCommandBuffers = commands.data();
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
     if (after.timeline || reaches.timeline) info.pNext = &values;
     if (after.timeline) {
         info.waitSemaphoreCount = values.waitSemaphoreValueCount = 1;
@@ -327,12 +347,7 @@ Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& comma
         info.pSignalSemaphores = &reaches.timeline;
         values.pSignalSemaphoreValues = &reaches.value;
     }
-    try {
-        device.submit(info, fence_);
-    } catch (...) {
-        device.vk().vkDestroyFence(device.handle(), fence_, nullptr);
-        throw;
-    }
+    device.submit(info, fence);
 }
 
 void Submission::wait() {
@@ -362,6 +377,11 @@ void Device::wait_for(VkSemaphore timeline, std::uint64_t value) const {
 void Device::wait_idle() const {
     const std::lock_guard lock(*interior_->queue_mutex);
     check(interior_->vk.vkQueueWaitIdle(interior_->queue), "waiting for the device");
+}
+
+void Device::settle() const noexcept {
+    const std::lock_guard lock(*interior_->queue_mutex);
+    interior_->vk.vkQueueWaitIdle(interior_->queue);
 }
 
 void Device::name_object(VkObjectType type, std::uint64_t handle, const std::string& name) const {

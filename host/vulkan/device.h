@@ -23,16 +23,21 @@ struct TablesOfAStep {
 };
 inline constexpr TablesOfAStep tables_of_a_step{25, 26, 6};
 
+enum class DeviceKind { discrete, integrated, virtual_gpu, other, processor };  // in the order of preference
+
 // Properties of a physical device, as `scree devices` shows them.
 struct DeviceReport {
     int index = 0;  // position in the loader's enumeration
     std::string name;
-    std::string driver;                 // name and version
-    std::string api_version;            // "1.3.230"
+    std::string driver;       // name and version
+    std::string api_version;  // "1.3.230"
+    DeviceKind kind = DeviceKind::other;
     bool is_processor = false;          // a software device such as lavapipe
+    bool has_graphics = true;           // false: its queues compute only, as those of accelerators without a display engine
     std::uint32_t subgroup = 0;         // subgroup size, threads
     std::uint64_t memory_bytes = 0;     // size of the largest device-local heap
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
+    std::uint64_t largest_buffer = 0;   // of one allocation: maxMemoryAllocationSize and maxBufferSize, bytes
     bool has_addresses = false;         // buffer device address: buffers may exceed largest_binding
     bool prefers_texels = false;        // texel buffer reads are faster than storage buffer reads (lavapipe)
     // Float controls for 32-bit floats (host/spirv/spirv.h). None is required, since + - * are correctly rounded
@@ -47,7 +52,9 @@ struct DeviceReport {
 std::vector<DeviceReport> list_devices();
 
 struct DeviceOptions {
-    std::string which;  // "": the first GPU, else the first usable device; an index; or a part of the name, case-insensitive
+    // "": the first usable device of the kind that comes first in DeviceKind, so a discrete GPU before an integrated one; an
+    // index; or a part of the name, case-insensitive.
+    std::string which;
     bool validation = false;  // core and synchronisation validation (DeviceError if the layer is not installed)
     // Treats device memory as not host-visible, as on most discrete GPUs, so that buffers go through staging copies.
     bool staged = false;
@@ -55,6 +62,10 @@ struct DeviceOptions {
     std::uint64_t largest_binding = 0;
     // Never uses texel buffers, as on a GPU.
     bool without_texels = false;
+    // Treats the queue as one that computes only.
+    bool without_graphics = false;
+    // If not 0, caps the largest buffer, bytes.
+    std::uint64_t largest_buffer = 0;
     // Instance extensions of the window system (Display::extensions); if not empty, the device can present.
     std::vector<const char*> window_extensions = {};
     // Receives each validation message, on any thread; Device::validation_messages() also collects them.
@@ -75,7 +86,7 @@ public:
     VkInstance instance() const;
     VkPhysicalDevice physical() const;
     VkDevice handle() const;
-    VkQueue queue() const;  // the one queue, with graphics, compute and transfer
+    VkQueue queue() const;  // the one queue, with compute and transfer, and graphics where report().has_graphics
     std::uint32_t queue_family() const;
     const VkPhysicalDeviceLimits& limits() const;
     const VkPhysicalDeviceMemoryProperties& memory() const;
@@ -100,6 +111,7 @@ public:
     void wait_for(VkSemaphore timeline, std::uint64_t value) const;
     VkResult present(const VkPresentInfoKHR& info);
     void wait_idle() const;
+    void settle() const noexcept;  // wait_idle() of destructors: on a lost device nothing is under way
 
     // Names an object in validation messages; does nothing without validation.
     template <typename Handle>
@@ -114,7 +126,8 @@ private:
     std::unique_ptr<Impl> interior_;
 };
 
-// A pending submission, completed by wait() or the destructor.
+// Pending work, completed by wait() or the destructor: command buffers in order, each in a submission of its own, since watchdogs
+// count the time of a submission.
 class Submission {
 public:
     Submission(Device& device, const std::vector<VkCommandBuffer>& commands);
@@ -130,11 +143,19 @@ public:
     void wait();  // until the command buffers have completed
 
 private:
+    static void submit_one(Device& device, VkCommandBuffer commands, Moment after, Moment reaches, VkFence fence);
     Device& device_;
     VkFence fence_ = VK_NULL_HANDLE;
 };
 
 // Throws DeviceError("what: VK_ERROR_...") unless the result is VK_SUCCESS.
 void check(VkResult result, const char* what);
+
+// The same of a call that makes an object, which is null when it fails: Vulkan leaves outputs of failed calls undefined.
+template <typename Handle>
+void check_made(VkResult result, const char* what, Handle& made) {
+    if (result != VK_SUCCESS) made = VK_NULL_HANDLE;
+    check(result, what);
+}
 
 }  // namespace scree::host

@@ -1,5 +1,6 @@
 // Properties of a physical device, and the requirements that it lacks.
 #include <algorithm>
+#include <limits>
 
 #include "host/vulkan/instance.h"
 
@@ -19,20 +20,35 @@ void require(std::vector<std::string>& lacks, std::uint32_t has, std::uint32_t n
     lacks.push_back(std::to_string(needs) + " " + what + " (it has " + std::to_string(has) + ")");
 }
 
+DeviceKind kind_of(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return DeviceKind::discrete;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return DeviceKind::integrated;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return DeviceKind::virtual_gpu;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return DeviceKind::processor;
+        default:
+            return DeviceKind::other;
+    }
+}
+
 }  // namespace
 
-int find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical, std::uint32_t* timestamp_bits) {
+QueueFamily find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical) {
     std::uint32_t count = 0;
     vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & wanted) != wanted) continue;
-        if (timestamp_bits) *timestamp_bits = families[i].timestampValidBits;
-        return static_cast<int>(i);
+    for (const VkQueueFlags wanted : {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, VK_QUEUE_COMPUTE_BIT + 0}) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if ((families[i].queueFlags & wanted) == wanted)
+                return {static_cast<int>(i), (wanted & VK_QUEUE_GRAPHICS_BIT) != 0, families[i].timestampValidBits};
+        }
     }
-    return -1;
+    return {};
 }
 
 DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int index) {
@@ -44,9 +60,17 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     VkPhysicalDeviceSubgroupProperties subgroups{};
     subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
     floats.pNext = &subgroups;
+    VkPhysicalDeviceMaintenance3Properties allocations{};
+    allocations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    allocations.maxMemoryAllocationSize = std::numeric_limits<VkDeviceSize>::max();
+    subgroups.pNext = &allocations;
+    VkPhysicalDeviceMaintenance4Properties buffers{};
+    buffers.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES;
+    buffers.maxBufferSize = std::numeric_limits<VkDeviceSize>::max();
     VkPhysicalDeviceProperties2 all{};
     all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     vk.vkGetPhysicalDeviceProperties(physical, &all.properties);
+    if (all.properties.apiVersion >= VK_API_VERSION_1_3) allocations.pNext = &buffers;
     // Some of these structures need Vulkan 1.2.
     const bool is_new_enough = all.properties.apiVersion >= VK_API_VERSION_1_2;
     if (is_new_enough) {
@@ -62,9 +86,11 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     report.driver =
         is_new_enough ? std::string(driver.driverName) + " " + driver.driverInfo : version_text(properties.driverVersion);
     report.api_version = version_text(properties.apiVersion);
-    report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    report.kind = kind_of(properties.deviceType);
+    report.is_processor = report.kind == DeviceKind::processor;
     report.subgroup = subgroups.subgroupSize;
     report.largest_binding = limits.maxStorageBufferRange;
+    report.largest_buffer = std::min<std::uint64_t>(allocations.maxMemoryAllocationSize, buffers.maxBufferSize);
     report.prefers_texels =
         report.is_processor && limits.maxPerStageDescriptorSampledImages >= tables_of_a_step.texels &&
         limits.maxPerStageDescriptorStorageImages >= tables_of_a_step.changing_texels &&
@@ -89,7 +115,9 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     }
     // Vulkan 1.2 has float controls, SPIR-V 1.5 and driver properties in the core.
     if (!is_new_enough) report.lacks.push_back("Vulkan 1.2 (it has " + report.api_version + "): a newer driver may bring it");
-    if (find_queue_family(vk, physical, nullptr) < 0) report.lacks.push_back("a queue with graphics and compute");
+    const QueueFamily family = find_queue_family(vk, physical);
+    if (family.index < 0) report.lacks.push_back("a queue with compute");
+    report.has_graphics = family.has_graphics;
     if (!report.has_addresses) {
         require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, tables_of_a_step.storage,
                 "storage buffers per shader stage");

@@ -37,7 +37,12 @@ private:
 
 DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int index);
 
-// Index of the first queue family with graphics and compute (which implies transfer), or -1.
-int find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical, std::uint32_t* timestamp_bits);
+// The first queue family with graphics and compute, else the first with compute (either implies transfer).
+struct QueueFamily {
+    int index = -1;  // -1: there is none
+    bool has_graphics = false;
+    std::uint32_t timestamp_bits = 0;
+};
+QueueFamily find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical);
 
 }  // namespace scree::host

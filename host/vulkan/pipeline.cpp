@@ -110,7 +110,7 @@ void BindingSet::make_set() {
     pool.maxSets = 1;
     pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     pool.pPoolSizes = sizes;
-    check(vk.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "creating a descriptor pool");
+    check_made(vk.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "creating a descriptor pool", pool_);
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "table");
     const VkDescriptorSetLayout set_layout = layout_->set_layout();
     VkDescriptorSetAllocateInfo info{};
@@ -133,7 +133,8 @@ void BindingSet::view(std::uint32_t i, const Buffer& of) {
     info.buffer = of.handle();
     info.format = format_of(bytes);
     info.range = VK_WHOLE_SIZE;
-    check(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &views_[i]), ("the texels of " + of.name()).c_str());
+    check_made(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &views_[i]),
+               ("the texels of " + of.name()).c_str(), views_[i]);
     device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, views_[i], of.name());
 }
 

@@ -30,7 +30,7 @@ Swapchain::Swapchain(std::shared_ptr<Device> device, std::function<VkSurfaceKHR(
 }
 
 Swapchain::~Swapchain() {
-    device_->wait_idle();
+    device_->settle();
     clear();
     end_surface();
 }
@@ -100,7 +100,7 @@ bool Swapchain::build(int width, int height) {
     check(asked, "surface capabilities");
     const VkSwapchainCreateInfoKHR info = shape(can, width, height);
     if (info.imageExtent.width == 0 || info.imageExtent.height == 0) return false;
-    check(vk.vkCreateSwapchainKHR(device_->handle(), &info, nullptr, &swapchain_), "creating the swapchain");
+    check_made(vk.vkCreateSwapchainKHR(device_->handle(), &info, nullptr, &swapchain_), "creating the swapchain", swapchain_);
     extent_ = info.imageExtent;
     std::uint32_t count = 0;
     check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, nullptr), "swapchain images");

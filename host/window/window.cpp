@@ -123,7 +123,7 @@ Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
 }
 
 Window::Impl::~Impl() {
-    device->wait_idle();
+    device->settle();
     panel.reset();
     swapchain.reset();
     if (ImGui::GetIO().BackendPlatformUserData != nullptr) ImGui_ImplGlfw_Shutdown();

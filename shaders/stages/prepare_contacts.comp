@@ -1,8 +1,9 @@
-// Contact preparation: constraints, and the first warm start.
+// Contact preparation: constraints, blocks of contacts, and the first warm start.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/stages/lib/contact_blocks.glsl"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 
@@ -16,6 +17,27 @@ Surface surface_on(BodyProperties row) {
     return READ_QUADS(surfaces, surface_of(row) - 1u);
 }
 
+// The constraint of a contact that some body moves, and its unrest.
+Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Parameters felt) {
+    BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
+    uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
+    Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, felt);
+    if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
+        constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
+                                   READ(poses, of_b).orientation, PARAMETERS);
+    if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, contact.center_offset, now);
+    float unrest = unrest_of(contact, constraint, ta, tb, now, felt);
+    contacts.at[i].unrest = unrest;
+    return with_unrest(constraint, unrest);
+}
+
+// The number of the next contact of a block (contact_block.h).
+uint next_in_block(uint i, uint place, bool shares, uint of_a, uint of_b) {
+    if (!shares || place + 1u >= BLOCK_CONTACTS) return 0u;
+    SlotsOfBody slots = slots_of_pair(of_a, READ_WORD(contact_slots, 2u * i), of_b, READ_WORD(contact_slots, 2u * i + 1u));
+    return next_partner(slots, of_a, of_b) + 1u;  // NONE + 1 is 0
+}
+
 void main() {
     uint i = thread();
     if (i >= COUNTED.contacts) return;
@@ -26,23 +48,29 @@ void main() {
         constraints.at[i] = idle_between(contact, of_a, of_b);
         return;
     }
-    BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
+    bool shares = BLOCKS && shares_block(READ(properties, contact.a), READ(properties, contact.b), PARAMETERS);
+    if (shares && follows_another(slots_of_pair(of_a, slot_a, of_b, slot_b), of_a, of_b)) return;
     Parameters felt = felt_by(of_a);
-    Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, felt);
-    if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
-        constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
-                                   READ(poses, of_b).orientation, PARAMETERS);
     VelocityPair now;
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
-    if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, contact.center_offset, now);
-    float unrest = unrest_of(contact, constraint, ta, tb, now, felt);
-    contacts.at[i].unrest = unrest;
-    constraint = with_unrest(constraint, unrest);
-    constraints.at[i] = constraint;
-
-    Impulse impulse = READ(impulses, i);
-    ContactShare share = first_share(constraint, impulse, now, READ(masses, of_a), READ(masses, of_b), felt);
-    if (slot_a != NONE) slots.at[slot_a] = velocity_delta(share.change.a, share.weight, impulse.normal_sum);
-    if (slot_b != NONE) slots.at[slot_b] = velocity_delta(share.change.b, share.weight, impulse.normal_sum);
+    BodyMass mass_a = READ(masses, of_a), mass_b = READ(masses, of_b);
+    float of_block = 0.0f;
+    uint before = 0u, here = i + 1u;
+    for (uint place = 0u; here != 0u; ++place) {
+        uint k = here - 1u;
+        if (place != 0u) contact = READ(contacts, k);
+        Constraint constraint = prepared(k, contact, of_a, of_b, now, felt);
+        uint next = next_in_block(k, place, shares, of_a, of_b);
+        constraint = linked(constraint, before, next);
+        constraints.at[k] = constraint;
+        Impulse impulse = READ(impulses, k);
+        ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, felt);
+        of_block = larger(of_block, share.weight);
+        float weight = next == 0u ? of_block : 0.0f;
+        if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = velocity_delta(share.change.a, weight, impulse.normal_sum);
+        if (constraint.slot_b != NONE) slots.at[constraint.slot_b] = velocity_delta(share.change.b, weight, impulse.normal_sum);
+        before = here;
+        here = next;
+    }
 }

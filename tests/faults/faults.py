@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-# Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.
+# Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations, devices that are lost or lack memory.
 #
-#     tests/faults/faults.py PROGRAM [--kills 200] [--writes 100] [--allocations 300] [--seed 1]
+#     tests/faults/faults.py PROGRAM [--kills 200] [--writes 100] [--allocations 300] [--losses 60] [--device-calls 120] [--seed 1]
 #
 # A run writes frames, a report, a recording of poses, a scene and checkpoints (and a video where ffmpeg is). What must hold: every
 # output is whole or not there; a run resumed from what is left reaches the same final hash; after it no left-over is in the folder;
-# a failing write or allocation ends with a message, exit status 1 or 2, and no file that is cut short.
+# a failing write or allocation ends with a message, exit status 1 or 2, and no file that is cut short. A device that is lost, in any
+# submission or wait, ends with a message and exit status 1.
 
 import argparse
 import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import struct
@@ -24,6 +26,9 @@ import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 RUN = ["run", "bins", "--backend", "cpu", "--threads", "1", "--steps", "90", "-q"]
+DEVICE_STEPS = "20"
+DEVICE_RUN = ["run", "rest", "--backend", "vulkan", "--steps", DEVICE_STEPS, "-q"]
+DEVICE_PICTURES = ["--frames", "frames", "--size", "96x64", "--fps", "10", "--canvas", "vulkan"]
 PICTURES = ["--frames", "frames", "--size", "96x64", "--fps", "30", "--canvas", "gl"]
 
 
@@ -155,12 +160,84 @@ class Faults:
             return done.returncode, done.stderr
 
 
+    def on_device(self, layer, **environment):
+        """A run on a Vulkan device whose calls fail (failing_layer.cpp), then what is left resumed on the processor."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            told = {**os.environ, "VK_LAYER_PATH": str(layer), "VK_INSTANCE_LAYERS": "VK_LAYER_SCREE_faults", **environment}
+            outputs = [word for word in self.outputs if word not in ("--video", "film.mp4")]
+            try:
+                done = subprocess.run([self.program, *DEVICE_RUN, *DEVICE_PICTURES, *outputs, "--checkpoint", "run.checkpoint", "--every", "0.1"],
+                                      cwd=folder, capture_output=True, text=True, env=told, timeout=120)
+            except subprocess.TimeoutExpired:
+                self.find(f"{environment}: no end in 120 s")
+                return 0, ""
+            what = " ".join(f"{key}={value}" for key, value in environment.items())
+            if done.returncode not in (0, 1, 2):
+                self.find(f"{what}: ends with {done.returncode}: {done.stderr[-300:]}")
+            if done.returncode > 0 and "scree: " not in done.stderr:
+                self.find(f"{what}: ends with {done.returncode} and says nothing")
+            if "SCREE_LOSE_DEVICE" in environment and done.returncode != 0 and (done.returncode != 1 or "VK_ERROR_DEVICE_LOST" not in done.stderr):
+                self.find(f"{what}: a lost device ends with {done.returncode}: {done.stderr[-300:]}")
+            for wrong in wrongs_in(folder, done.returncode < 0):
+                self.find(f"{what}: {wrong}")
+            if (folder / "run.checkpoint").exists():
+                words = ["run", "--resume", "run.checkpoint", "--backend", "cpu", "--threads", "1", "--steps", DEVICE_STEPS, "-q", "--report", "again.json"]
+                again = subprocess.run([self.program, *words], cwd=folder, capture_output=True, text=True)
+                if again.returncode not in (0, 1) or json.loads((folder / "again.json").read_text())["state_hash"] != self.device_hash:
+                    self.find(f"{what}, and resumed: {again.returncode}, or another hash: {again.stderr[:300]}")
+            return done.returncode, done.stderr
+
+    def lose_devices(self, folder, losses, calls):
+        layer = build_layer(folder)
+        if layer is None:
+            print("no Vulkan headers or device: no device is lost")
+            return
+        with tempfile.TemporaryDirectory() as name:
+            subprocess.run([self.program, "run", DEVICE_RUN[1], "--backend", "cpu", "--threads", "1", "--steps", DEVICE_STEPS, "-q", "--report", "report.json"],
+                           cwd=name, capture_output=True)
+            self.device_hash = json.loads((pathlib.Path(name) / "report.json").read_text())["state_hash"]
+        code, said = self.on_device(layer, SCREE_COUNT="1")
+        counts = re.search(r"vulkan calls (\d+) submissions and waits (\d+)", said)
+        if code not in (0, 1) or not counts:
+            self.find(f"without faults, on a device: {code} {said[-300:]}")
+            return
+        most_calls, most_waits = int(counts[1]), int(counts[2])
+        print(f"a run on a device has {most_calls} calls that may lack memory, {most_waits} submissions and waits", flush=True)
+        ends = [self.on_device(layer, SCREE_LOSE_DEVICE=str(at))[0] for at in spread(most_waits, losses)]
+        print(f"{len(ends)} runs whose device is lost: {ends.count(1)} told, {ends.count(0)} had ended", flush=True)
+        ends = []
+        for i, at in enumerate(spread(most_calls, calls)):
+            rest = {"SCREE_FAIL_REST": "1"} if i % 3 == 0 else {}
+            ends.append(self.on_device(layer, SCREE_FAIL_VULKAN=str(at), **rest)[0])
+        print(f"{len(ends)} runs in which a Vulkan call lacks memory: {ends.count(1) + ends.count(2)} told, {ends.count(0)} did without")
+
+
+def spread(most, count):
+    """At most so many numbers below `most`, with the first and the last."""
+    return sorted({i * (most - 1) // max(1, count - 1) for i in range(count)}) if count < most else range(most)
+
+
+def build_layer(folder):
+    """The folder of the layer that fails, None where it cannot be built."""
+    words = [os.environ.get("CXX", "c++"), "-std=c++20", "-shared", "-fPIC", "-fvisibility=hidden", "-O1", str(HERE / "failing_layer.cpp"), "-o",
+             str(folder / "failing_layer.so")]
+    if subprocess.run(words, capture_output=True).returncode != 0:
+        return None
+    manifest = {"name": "VK_LAYER_SCREE_faults", "type": "GLOBAL", "library_path": "./failing_layer.so", "api_version": "1.3.0",
+                "implementation_version": "1", "description": "calls that fail"}
+    (folder / "failing_layer.json").write_text(json.dumps({"file_format_version": "1.1.2", "layer": manifest}))
+    return folder
+
+
 def main():
-    options = argparse.ArgumentParser(description="Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.")
+    options = argparse.ArgumentParser(description="Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations, lost devices.")
     options.add_argument("program", type=pathlib.Path)
     options.add_argument("--kills", type=int, default=200)
     options.add_argument("--writes", type=int, default=100)
     options.add_argument("--allocations", type=int, default=300)
+    options.add_argument("--losses", type=int, default=60)
+    options.add_argument("--device-calls", type=int, default=120)
     options.add_argument("--seed", type=int, default=1)
     asked = options.parse_args()
     faults = Faults(asked.program.resolve(), asked.seed)
@@ -183,7 +260,9 @@ def main():
             # The first are those of static objects; then as often in the first thousands, where readers and set-up are, as later.
             at = i + 1 if i < 8 else faults.random.randrange(min(allocations, 5000) if i % 2 else allocations)
             ends.append(faults.failing(shim, SCREE_FAIL_ALLOCATION=str(at), **rest)[0])
-        print(f"{asked.allocations} runs in which an allocation fails: {ends.count(1) + ends.count(2)} told, {ends.count(0)} did without")
+        print(f"{asked.allocations} runs in which an allocation fails: {ends.count(1) + ends.count(2)} told, {ends.count(0)} did without", flush=True)
+        if asked.losses + asked.device_calls > 0:
+            faults.lose_devices(pathlib.Path(name), asked.losses, asked.device_calls)
     print(f"{len(faults.findings)} findings")
     return 1 if faults.findings else 0
 

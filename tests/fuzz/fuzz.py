@@ -89,7 +89,7 @@ def seeds(program, folder):
         found.append((name, (IMPORTS / file).read_bytes()))
     found.append(("physics.glb", glb((IMPORTS / "physics.gltf").read_bytes())))
     found += [("mesh.obj", OBJ.encode()), ("mesh.stl", STL.encode()), ("binary.stl", stl_bytes())]
-    recording = {"scree_input": 1, "scene": "slopes", "bodies": 0, "seed": 1, "rate": 60, "substeps": 8, "sleeping": True, "steps": 20,
+    recording = {"scree_input": 1, "scene": "rest", "bodies": 0, "seed": 1, "rate": 60, "substeps": 8, "sleeping": True, "steps": 20,
                  "acts": ACTS}
     found.append(("acts.input", json.dumps(recording).encode()))
     for demo in ("rest", "bridge", "glass"):
@@ -116,7 +116,7 @@ def report_of(text):
         return None
 
 
-def judged(program, folder, name, size):
+def judged(program, folder, name, size, brief=False):
     """What is wrong with the program's ways with a file: (None or sentence, accepted)."""
     base = ["--backend", "cpu", "--threads", "1", "--report", "-", "-q", "--steps"]
     what = {"input": ["run", "--input", name, *base[:-1]], "checkpoint": ["run", "--resume", name, *base, str(STEPS)]}
@@ -139,7 +139,7 @@ def judged(program, folder, name, size):
         return f"no report: {shown}", True
     if report["not_finite"] and "not finite" not in error:
         return f"{report['not_finite']} bodies not finite, untold: {shown}", True
-    if name.endswith((".input", ".checkpoint")):
+    if brief or name.endswith((".input", ".checkpoint")):
         return None, True
     # From a checkpoint in the middle.
     code, _, error = program.run(folder, "run", name, *base[:5], "half.json", "-q", "--steps", str(HALF), "--checkpoint", "half", size=size)
@@ -153,6 +153,13 @@ def judged(program, folder, name, size):
         if code not in (0, 2) or (code == 2 and not way and "denormals" not in error):
             return f"compare {' '.join(way)} --steps {HALF} ends with {code}: {out.decode()[-500:]}{error[-500:]}", True
     return None, True
+
+
+def is_accepted(program, folder, name, data):
+    (folder / "cube.obj").write_text(OBJ)
+    (folder / name).write_bytes(data)
+    wrong, accepted = judged(program, folder, name, len(data), brief=True)
+    return accepted and not wrong
 
 
 def one(program, corpus, seed, findings, only):
@@ -189,6 +196,8 @@ def main():
     program = Program(asked.program.resolve(), asked.devices)
     with tempfile.TemporaryDirectory() as folder:
         corpus = seeds(program, pathlib.Path(folder))
+        if refused := [name for name, data in corpus if not is_accepted(program, pathlib.Path(folder), name, data)]:
+            sys.exit(f"the program refuses seeds, so their mutants would try nothing: {refused}")
     end = time.monotonic() + asked.seconds
     tried, taken, wrongs, seed = {}, {}, [], asked.seed * 1000000
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:

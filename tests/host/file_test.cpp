@@ -60,6 +60,7 @@ TEST_CASE("of a regular file at most as many bytes as asked for are read; what i
     REQUIRE(read_regular(folder.path() / "file", 4) == "four");
     REQUIRE_THROWS_WITH(read_regular(folder.path() / "file", 3), Catch::Contains("it has 4 bytes, at most 3 are read"));
     REQUIRE_THROWS_WITH(read_regular("/dev/zero", 1000), Catch::Contains("/dev/zero: it is no regular file"));
+    REQUIRE_THROWS_WITH(read_text("/dev/zero"), Catch::Contains("/dev/zero: it is a device, which may never end"));
     REQUIRE_THROWS_AS(read_regular(folder.path(), 1000), FileError);
     const std::filesystem::path pipe = folder.path() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

@@ -1,5 +1,8 @@
 // Outputs of pictures and numbers: no loss of existing files, no ignored options, correct messages.
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
+#include <chrono>
 
 #include "tests/program/program.h"
 
@@ -61,12 +64,27 @@ TEST_CASE("program: outputs that contradict each other or say nothing are refuse
     require_refused(brief + "--video '" + at + "/clip.avi'", {"clip.avi", "scree.mp4"});
     require_refused(brief + "--raw '" + at + "/a.mp4' --video '" + at + "/./a.mp4'", {"--video and --raw"});
     require_refused(brief + "--raw '" + at + "/a' --report '" + at + "/a'", {"--raw and --report"});
+    require_refused(brief + "--report '" + at + "/a.json' --save '" + at + "/a.json'", {"--report and --save"});
+    require_refused(brief + "--trace '" + at + "/a.json' --checkpoint '" + at + "/./a.json'", {"--checkpoint and --trace"});
     for (const std::string option : {"--frames", "--video", "--preview", "--raw", "--report"})
         require_refused(brief + option + " ''", {option, "the name is empty"});
     for (const std::string option : {"--color speed", "--png-depth 16", "--no-legend", "--eye 1,2,3", "--camera fit"})
         require_refused("run rest --steps 1 " + option, {option.substr(0, option.find(' ')), "no pictures are asked for"});
     REQUIRE(std::filesystem::is_empty(place.path()));
     REQUIRE(run_scree(brief + "--size 64x48 --raw /dev/null --report /dev/null").status == 0);
+}
+
+TEST_CASE("program: what waits for another process, for ever, ends at the first signal", "[program]") {
+    const Place place;
+    const std::string pipe = (place / "pipe.json").string();
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    for (const std::string& arguments : {"run '" + pipe + "'", brief + "--report '" + pipe + "'"}) {
+        const auto start = std::chrono::steady_clock::now();
+        const Outcome outcome = run_scree(arguments, "timeout 1");
+        INFO(arguments << "\n" << outcome.errors);
+        REQUIRE(outcome.status == 124);  // timeout's own, after the signal
+        REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    }
 }
 
 TEST_CASE("program: options that would change nothing are refused", "[program]") {

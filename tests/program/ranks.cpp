@@ -82,3 +82,44 @@ TEST_CASE("program: several processes end together, with a message", "[program][
     REQUIRE(killed.status != 124);
     REQUIRE((says(killed.errors + killed.output, "exited on signal 9") || says(killed.errors + killed.output, "non-zero")));
 }
+
+#ifdef SCREE_DYING_RANK
+// A world in which bodies sleep, are fast and break, so that ranks say all that they ever say to each other.
+TEST_CASE("program: a rank that is killed anywhere in a step ends the run, and another number of ranks resumes it",
+          "[program][ranks]") {
+    if (cannot_run()) return;
+    const Place place;
+    const std::string file = "'" + (place / "run.checkpoint").string() + "'", calls = (place / "calls").string();
+    constexpr int steps = 48, places = 8;
+    const std::string run = "run shatter --bodies 40 --backend cpu --threads 1 --quiet --steps " + std::to_string(steps);
+    const std::string whole = hash_after(run_scree(run + " --report -").output);
+    REQUIRE(whole.size() == 16);
+    const std::string distributed = run + " --distributed --checkpoint " + file + " --every 0.2 --trajectory '" +
+                                    (place / "run.csv").string() + "'";  // a checkpoint every 12 steps
+    const auto killed_at = [&](int rank, const std::string& when) {
+        return "timeout 60 " + ranks(3) + " env LD_PRELOAD='" SCREE_DYING_RANK "' SCREE_DYING_RANK=" + std::to_string(rank) +
+               " " + when;
+    };
+    const Outcome counted = run_scree(distributed, killed_at(1, "SCREE_CALLS='" + calls + "'"));
+    INFO(counted.errors);
+    REQUIRE(counted.status == 0);
+    const long all = std::stol(place.read("calls")), of_step = all / steps;
+    REQUIRE(of_step > 2 * places);
+    for (int k = 0; k < places; ++k) {
+        std::filesystem::remove(place / "run.checkpoint");
+        std::filesystem::remove(place / "run.csv");
+        const long call = all * 2 / 3 + k * of_step / places;
+        const Outcome killed = run_scree(distributed, killed_at(k % 3, "SCREE_DIES_AT=" + std::to_string(call)));
+        INFO("killed at call " << call << " of " << all << "\n" << killed.errors);
+        REQUIRE(killed.status != 0);
+        REQUIRE(killed.status != 124);
+        REQUIRE(says(killed.errors + killed.output, "signal 9"));
+        REQUIRE(!std::filesystem::exists(place / "run.csv"));  // no half of a file
+        const std::string later =
+            "run --backend cpu --threads 1 --quiet --report - --steps " + std::to_string(steps) + " --resume " + file;
+        const Outcome resumed = k % 2 ? run_scree(later) : run_scree(later + " --distributed", ranks(2));
+        INFO(resumed.errors);
+        REQUIRE(hash_after(resumed.output) == whole);
+    }
+}
+#endif

@@ -135,21 +135,56 @@ TEST_CASE("every stage gives the same bits on both processors whatever contacts 
     }
 }
 
-// Lavapipe ends a shader's loops after 65,535 rounds in all; a body's contacts are sorted by one thread.
-TEST_CASE("a plate that bears ten thousand balls has the same bits on both processors") {
-    constexpr int edge = 100;
+namespace {
+
+Scene plate_under_balls(int edge) {
+    const float half = 0.6f * static_cast<float>(edge);
     Scene scene;
     scene.bodies.resize(2);
     scene.bodies[0].shape = Plane{};
     scene.bodies[0].motion = Motion::fixed;
-    scene.bodies[1].shape = Box{{60, 0.5f, 60}};
+    scene.bodies[1].shape = Box{{half, 0.5f, half}};
     scene.bodies[1].position = {0, 0.5f, 0};
     for (int i = 0; i < edge * edge; ++i) {
         Body& ball = scene.bodies.emplace_back();
         ball.shape = Sphere{0.5f};
         ball.position = {1.1f * static_cast<float>(i % edge - edge / 2), 1.495f, 1.1f * static_cast<float>(i / edge - edge / 2)};
     }
-    CHECK(contacts_walked(scene, Watched(), 2) == edge * edge + 1);
+    return scene;
+}
+
+}  // namespace
+
+// Lavapipe ends a shader's loops after 65,535 rounds in all; a body's contacts are sorted by one thread.
+TEST_CASE("a plate that bears ten thousand balls has the same bits on both processors") {
+    CHECK(contacts_walked(plate_under_balls(100), Watched(), 2) == 100 * 100 + 1);
+}
+
+TEST_CASE("a plate that bears more balls than a software device can sort is refused by name, not simulated wrongly") {
+    const Watched watched;
+    if (!watched.device->report().is_processor) return;
+    World enough(plate_under_balls(141), {}, std::make_unique<DeviceRunner>(watched.device));
+    enough.step(2);
+    World fewer_on_processors(plate_under_balls(141));
+    fewer_on_processors.step(2);
+    CHECK(enough.state_hash() == fewer_on_processors.state_hash());
+    World too_many(plate_under_balls(142), {}, std::make_unique<DeviceRunner>(watched.device));
+    CHECK_THROWS_WITH(too_many.step(),
+                      Catch::Contains("a body has 20165 contacts and joints") && Catch::Contains("--backend cpu"));
+}
+
+TEST_CASE("a cell with more bodies than a software device can sort is refused by name, not simulated wrongly") {
+    const Watched watched;
+    if (!watched.device->report().is_processor) return;
+    Scene scene;
+    scene.bodies.resize(20001);
+    for (Body& ball : scene.bodies) {
+        ball.shape = Sphere{0.5f};
+        ball.position = {0.1f, 0.1f, 0.1f};
+        ball.filter = Filter{.group = -1};  // they collide with none
+    }
+    World world(scene, {}, std::make_unique<DeviceRunner>(watched.device));
+    CHECK_THROWS_WITH(world.step(), Catch::Contains("a cell of the broadphase has 20001 bodies"));
 }
 
 TEST_CASE("both processors stop fast bodies alike") {

@@ -1,7 +1,9 @@
 // SIMD substep stages write the same bits as the scalar loops.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
+#include "tests/world/feet.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
 
@@ -32,6 +35,15 @@ struct Walker {
     Walker(const Scene& scene, const Settings& settings, int threads, int lanes)
         : state(checked(scene), settings, 64, true), runner(threads, lanes) {
         runner.attach(state);
+    }
+
+    void step_unwatched() {
+        state.fixed().redo = 0;
+        while (!runner.step()) {
+            state.grow();
+            runner.attach(state);
+            state.fixed().redo = 1;
+        }
     }
 
     // Makes a step and calls look(stage, table, bytes) for every table that a stage writes.
@@ -89,6 +101,43 @@ TEST_CASE("several contacts at once leave the bits that each of them alone leave
         compare(tests::swarm(40, 0.8f), 1, lanes, 90);
         REQUIRE(compare(tests::belts(60), 1, lanes, 90) > 30);
         REQUIRE(compare(tests::heap(150), 2, lanes, 40) > 60);
+    }
+}
+
+TEST_CASE("bodies in several contacts with another leave the same bits one by one and beside lanes") {
+    for (const int lanes : {4, 8, 16}) {
+        CAPTURE(lanes);
+        REQUIRE(compare(tests::what_has_feet(7), 1, lanes, 60) > 64);
+        compare(tests::what_has_feet(7), 2, lanes, 20);
+    }
+}
+
+// Between stages that nobody looks at, lanes leave out what later stages do not read.
+TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops") {
+    const auto runs = [](const Scene& scene, int threads, int lanes) {
+        CAPTURE(threads, lanes);
+        Settings settings;
+        settings.sleep_time = 0.2f;
+        Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
+        for (int step = 0; step < 150; ++step) {
+            CAPTURE(step);
+            plain.step_unwatched();
+            wide.step_unwatched();
+            for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::first_contacts,
+                                      Table::contacts, Table::impulses, Table::constraints, Table::counts}) {
+                CAPTURE(table_infos()[static_cast<std::size_t>(table)].name);
+                const std::span<const std::byte> one = live_bytes(plain.state, table), other = live_bytes(wide.state, table);
+                REQUIRE(std::ranges::equal(one, other));
+            }
+        }
+    };
+    for (const int lanes : {4, 8, 16}) {
+        runs(tests::heap(100), 1, lanes);
+        runs(tests::heap(100), 2, lanes);
+        runs(tests::swarm(40, 0.8f), 1, lanes);
+        runs(tests::belts(40), 1, lanes);
+        runs(tests::packed(40), 1, lanes);
+        runs(tests::what_has_feet(7), 1, lanes);
     }
 }
 

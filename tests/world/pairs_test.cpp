@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "compute/cpu/reference_runner.h"
@@ -91,6 +92,48 @@ TEST_CASE("every overlapping pair is found once, and no pair of two that cannot 
         REQUIRE(planes_missed > 1000);
         // Further pairs overlap only with bounds widened by the motion per step and the speculative distance.
         REQUIRE(found.size() < 6 * (expected + planes_reached));
+    }
+}
+
+TEST_CASE("rows that are near each other, kept from step to step, give the pairs that a search finds anew") {
+    const auto pairs_of = [](State& state, ReferenceRunner& runner, bool anew) {
+        std::vector<physics::Pair> pairs;
+        const auto look = [&](const Stage& stage, std::size_t) {
+            if (stage.name == "match_pairs") pairs.assign(state.pairs.begin(), state.pairs.begin() + state.counted().pairs);
+            return true;
+        };
+        state.fixed().redo = 0;
+        for (bool done = false; !done; state.fixed().redo = 1) {
+            if (anew) state.near_rows = {};
+            done = runner.step(look);
+            if (!done) state.grow();
+        }
+        return pairs;
+    };
+    tests::Noise noise(3);
+    Scene slow = motley(300, vec3(0), 5);
+    for (Body& body : slow.bodies) body.velocity *= 0.02f;
+    for (const Scene& scene : {tests::heap(150), slow}) {
+        State kept(scene, {}, 64, true), anew(scene, {}, 64, true);
+        ReferenceRunner kept_runner(2), anew_runner(1);
+        kept_runner.attach(kept);
+        anew_runner.attach(anew);
+        int listed = 0;
+        for (int step = 0; step < 240; ++step) {
+            const std::size_t moved = static_cast<std::size_t>(step) % scene.bodies.size();
+            const vec3 way = noise.vector();
+            for (State* state : {&kept, &anew})
+                if (step % 9 == 4 && !std::holds_alternative<Plane>(scene.bodies[moved].shape))
+                    state->poses[moved].position += way;
+            CAPTURE(step);
+            const std::vector<physics::Pair> found = pairs_of(kept, kept_runner, false),
+                                             expected = pairs_of(anew, anew_runner, true);
+            REQUIRE(found.size() == expected.size());
+            REQUIRE(std::memcmp(found.data(), expected.data(), found.size() * sizeof(physics::Pair)) == 0);
+            REQUIRE_FALSE(anew.near_rows.is_listed);
+            listed += kept.near_rows.is_listed;
+        }
+        REQUIRE(listed > 60);
     }
 }
 

@@ -32,6 +32,9 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.properties = words(state.properties);
     tables.slot_ends = words(state.slot_ends);
     tables.contacts_before = words(state.contacts_before);
+    tables.impulses_before = words(state.impulses_before);
+    tables.contact_pairs = state.contact_pairs.data();
+    tables.contact_slots = state.contact_slots.data();
     tables.pairs = words(state.pairs);
     tables.manifolds = words(state.pair_manifolds);
     tables.point_counts = words(state.point_counts);
@@ -47,7 +50,9 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
     tables.watched = state.is_watched;
     const SceneFeatures has = state.features();
-    tables.plain = !has.bounces && !has.rolls && !has.tyres && !has.surfaces;
+    const bool usual = !has.bounces && !has.tyres && !has.surfaces;
+    tables.plain = usual && !has.rolls;
+    tables.carries = usual && !has.blocks && !state.is_watched;
     return tables;
 }
 

@@ -8,6 +8,7 @@
 #include "compute/cpu/simd/simd_types.h"
 
 #include "shaders/physics/collide/box_separation.h"
+#include "shaders/physics/solve/carried_contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
@@ -15,109 +16,11 @@
 #undef float
 #undef bool
 
+#include "compute/cpu/simd/contact_group.h"
+
 LAWS_BEGIN
 
 namespace {
-
-using reference::WideTables;
-
-SCREE_INLINE Words lane_numbers() {
-    Words numbers;
-    for (int lane = 0; lane < lanes; ++lane) numbers[lane] = static_cast<std::uint32_t>(lane);
-    return numbers;
-}
-// The next items; lanes beyond the end repeat the last one.
-SCREE_INLINE Uint listed(const std::uint32_t* items, std::size_t first, std::size_t last) {
-    Words found;
-    if (last - first >= lanes) {
-        __builtin_memcpy(&found, items + first, sizeof found);
-    } else {
-        for (int lane = 0; lane < lanes; ++lane) {
-            const std::size_t item = first + static_cast<std::size_t>(lane);
-            found[lane] = items[item < last ? item : last - 1];
-        }
-    }
-    return found;
-}
-SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
-    return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
-}
-
-// What the passes of a step keep of a group of contacts.
-struct Kept {
-    Constraint c;
-    Impulse impulse;
-};
-SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
-    return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
-}
-
-// Specialisation by the features of a scene, as for devices (shaders/stages/lib/features.glsl): the compiler removes the
-// code of what is constant. Replaces only members that are compared, or keep the sign of a zero.
-template <bool plain>
-SCREE_INLINE Constraint narrowed(Constraint c) {
-    if (!plain) return c;
-    c.restitution = c.rolling_resistance = c.tyre_slip = 0.0f;
-    c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;
-    return c;
-}
-template <bool plain>
-SCREE_INLINE Impulse narrowed(Impulse impulse) {
-    if (!plain) return impulse;
-    impulse.impact = vec4(0.0f);
-    impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
-    return impulse;
-}
-
-// A group of contacts, one per lane, with solver data and bodies.
-template <bool plain>
-struct Group {
-    Kept& kept_;
-    Bool live;  // false in lanes beyond the end
-    Constraint c;
-    Impulse impulse;
-    Indices a, b;
-    VelocityPair before;
-
-    SCREE_INLINE Group(const WideTables& tables, std::size_t first, std::size_t last)
-        : kept_(kept(tables, first)),
-          live(living(first, last)),
-          c(narrowed<plain>(kept_.c)),
-          impulse(narrowed<plain>(kept_.impulse)),
-          a(c.a),
-          b(c.b),
-          before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
-
-    SCREE_INLINE vec4 impacts_state(const WideTables& tables, const Parameters& p) const {
-        if (none(c.restitution > 0.0f)) return vec4(0.0f);
-        return choose(c.restitution > 0.0f,
-                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
-                                   gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
-                      vec4(0.0f));
-    }
-    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
-        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
-        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
-    }
-    SCREE_INLINE void keep(const Impulse& after) const { kept_.impulse = after; }
-    // The table of impulses from what is kept.
-    SCREE_INLINE void give_back(const WideTables& tables, std::size_t first, std::size_t last) const {
-        scatter(tables.impulses, Indices(listed(tables.items, first, last)).only(live), kept_.impulse);
-    }
-};
-
-// Of each lane the record of one or the other.
-template <typename Record>
-SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {
-    Record chosen;
-    for (std::size_t word = 0; word < sizeof(Record) / sizeof(Words); ++word) {
-        AnyWords of_a, of_b;
-        __builtin_memcpy(&of_a, reinterpret_cast<const AnyWords*>(&a) + word, sizeof of_a);
-        __builtin_memcpy(&of_b, reinterpret_cast<const AnyWords*>(&b) + word, sizeof of_b);
-        reinterpret_cast<AnyWords*>(&chosen)[word] = condition.v ? of_a : of_b;
-    }
-    return chosen;
-}
 
 // A group of pairs whose contacts of the last step may persist.
 struct PairGroup {
@@ -132,8 +35,8 @@ struct PairGroup {
           pair(gather<Pair>(tables.pairs, pairs)),
           contact(gather<Contact>(tables.contacts_before, Indices(pair.previous))) {}
 };
-SCREE_INLINE Indices body_of(Uint row, const BodyProperties& properties) {
-    return Indices(choose(is_part(properties), properties.owner, row));
+SCREE_INLINE Uint body_of(Uint row, const BodyProperties& properties) {
+    return choose(is_part(properties), properties.owner, row);
 }
 
 void keep(const WideTables& tables, std::size_t first, std::size_t last) {
@@ -141,25 +44,18 @@ void keep(const WideTables& tables, std::size_t first, std::size_t last) {
         const PairGroup group(tables, first, last);
         const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
         const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
-        const Indices a = body_of(group.pair.a, ta), b = body_of(group.pair.b, tb);
-        const Bool keeps = is_persistent(group.contact, ta, gather<Pose>(tables.poses, a), gather<Velocity>(tables.velocities, a),
-                                         tb, gather<Pose>(tables.poses, b), gather<Velocity>(tables.velocities, b));
-        Pair pair = group.pair;
-        pair.pair_type = choose(keeps, Uint(PAIR_PERSISTENT), pair.pair_type);
-        scatter(tables.pairs, group.pairs.only(group.live), pair);
-    }
-}
-
-void persist(const WideTables& tables, std::size_t first, std::size_t last) {
-    for (; first < last; first += lanes) {
-        const PairGroup group(tables, first, last);
-        const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
-        const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
-        const Pose a = gather<Pose>(tables.poses, body_of(group.pair.a, ta)),
-                   b = gather<Pose>(tables.poses, body_of(group.pair.b, tb));
-        scatter(tables.manifolds, group.pairs.only(group.live), persistent_manifold(group.contact, a, b));
-        for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+        const Indices a(body_of(group.pair.a, ta)), b(body_of(group.pair.b, tb));
+        const Pose pose_a = gather<Pose>(tables.poses, a), pose_b = gather<Pose>(tables.poses, b);
+        const Bool keeps = group.live && is_persistent(group.contact, ta, pose_a, gather<Velocity>(tables.velocities, a), tb,
+                                                       pose_b, gather<Velocity>(tables.velocities, b));
+        if (none(keeps)) continue;
+        scatter(tables.manifolds, group.pairs.only(keeps), persistent_manifold(group.contact, pose_a, pose_b));
+        constexpr std::size_t words = sizeof(Pair) / sizeof(Words), at = offsetof(Pair, pair_type) / sizeof(Words);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (keeps.v[lane] == 0) continue;
+            tables.pairs[words * group.pairs.of[lane] + at] = PAIR_PERSISTENT.v[lane];
             tables.point_counts[group.pairs.of[lane]] = group.contact.count.v[lane];
+        }
     }
 }
 
@@ -180,7 +76,79 @@ void separate_boxes(const WideTables& tables, std::size_t first, std::size_t las
     }
 }
 
+// Writes a member of the first of the contacts, which is at that offset in a record of lanes.
+SCREE_INLINE void set_in_contacts(const WideTables& tables, std::size_t offset, const Indices& contacts, Float value,
+                                  std::size_t items) {
+    constexpr std::size_t words = sizeof(Contact) / sizeof(Words);
+    for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
+        const auto of_lane = value.v[lane];
+        __builtin_memcpy(tables.contacts + words * contacts.of[lane] + offset / sizeof(Words), &of_lane, sizeof of_lane);
+    }
+}
+
+// What a group of contacts has from the last step, and from the manifolds of this one.
+struct Inherited {
+    Impulse impulse;
+    Float load;
+    Uint slot_a, slot_b;
+};
+SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contacts, const BodyProperties& ta,
+                                 const BodyProperties& tb, const Contact& contact) {
+    Words pair_of, slot_a, slot_b;
+    for (int lane = 0; lane < lanes; ++lane) {
+        pair_of[lane] = tables.contact_pairs[contacts.of[lane]];
+        slot_a[lane] = tables.contact_slots[2 * contacts.of[lane]];
+        slot_b[lane] = tables.contact_slots[2 * contacts.of[lane] + 1];
+    }
+    const Indices pairs{Uint(pair_of)};
+    const Pair pair = gather<Pair>(tables.pairs, pairs);
+    const Bool carried = pair.pair_type == Uint(PAIR_PERSISTENT);
+    constexpr std::size_t words = sizeof(Impulse) / sizeof(Words);
+    const std::uint32_t* places[SCREE_LANES];
+    for (int lane = 0; lane < lanes; ++lane)
+        places[lane] = carried.v[lane] != 0 ? tables.impulses_before + words * pair.previous.v[lane]
+                                            : tables.impulses + words * contacts.of[lane];
+    Inherited found{gather_at<Impulse>(places), contact.load, slot_a, slot_b};
+    if (none(carried)) return found;
+    found.load = choose(carried, load_since(contact, found.impulse, ta, found.slot_a, tb, found.slot_b), contact.load);
+    Impulse now = carried_impulse(contact, found.impulse, gather<Manifold>(tables.manifolds, pairs));
+    now.normal_sum = normal_impulse(now);
+    found.impulse = none(!carried) ? now : choose_record(carried, now, found.impulse);
+    return found;
+}
+
+void prepare_and_carry(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices contacts(listed(tables.items, first, last));
+        const Contact contact = gather<Contact>(tables.contacts, contacts);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
+        const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
+        const Inherited from = inherited(tables, contacts, ta, tb, contact);
+        Constraint c =
+            constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
+        const Indices a(c.a), b(c.b);
+        const VelocityPair now{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)};
+        const Float unrest = unrest_of(contact, c, ta, tb, now, p);
+        c = with_unrest(c, unrest);
+        const Bool live = living(first, last);
+        scatter(tables.constraints, contacts.only(live), c);
+        set_in_contacts(tables, offsetof(Contact, unrest), contacts, unrest, last - first);
+        set_in_contacts(tables, offsetof(Contact, load), contacts, from.load, last - first);
+        Kept& prepared = kept(tables, first);
+        prepared.c = c;
+        prepared.impulse = tables.plain ? narrowed<true>(from.impulse) : from.impulse;
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, a), from.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, b), from.impulse, p);
+        const Float weight = is_active(c, from.impulse, now, p);
+        const VelocityPair share = to_body_deltas(now, now, ma, mb);
+        to_slots(tables, live, c, warm_start(c, from.impulse, share, ma, mb), weight, from.impulse.normal_sum);
+    }
+}
+
 void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.carries) return prepare_and_carry(tables, first, last);
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
@@ -203,7 +171,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
             constexpr std::size_t words = sizeof(Contact) / sizeof(Words), at = offsetof(Contact, unrest) / sizeof(Words);
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-                if (waits.v[lane] != 0) __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &unrest.v[lane], 4);
+                if (waits.v[lane] != 0) {
+                    const auto of_lane = unrest.v[lane];
+                    __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &of_lane, sizeof of_lane);
+                }
         }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
@@ -211,6 +182,7 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
         const Float weight = is_active(group.c, group.impulse, group.before, p);
         const VelocityPair share = to_body_deltas(group.before, group.before, ma, mb);
         group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), weight, group.impulse.normal_sum);
+        if (tables.plain) prepared.impulse = narrowed<true>(prepared.impulse);
     }
 }
 
@@ -219,12 +191,14 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
+        prefetch_next(tables, first, last);
         const Group<plain> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), p);
+        const SolveResult after =
+            solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        group.keep(after.impulse);
+        group.keep_solved(after.impulse);
         if (tables.watched) group.give_back(tables, first, last);
         group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
     }
@@ -270,11 +244,12 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
+        prefetch_next(tables, first, last);
         const Group<plain> group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after =
-            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables, p), debts(tables, group, ma, mb), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
+                                                debts(tables, group, ma, mb), 1.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
@@ -380,7 +355,6 @@ namespace scree::reference {
 #define SCREE_STAGES(count) SCREE_JOINED(wide_stages_, count)
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::keep,
-                                              SCREE_NAMED(SCREE_LANES)::persist,
                                               SCREE_NAMED(SCREE_LANES)::separate_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,
                                               SCREE_NAMED(SCREE_LANES)::begin,

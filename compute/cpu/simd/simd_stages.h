@@ -14,6 +14,9 @@ struct WideTables {
     const std::uint32_t* properties;
     const std::uint32_t* slot_ends;
     const std::uint32_t* contacts_before;  // of the last step
+    const std::uint32_t* impulses_before;
+    const std::uint32_t* contact_pairs;
+    const std::uint32_t* contact_slots;
     std::uint32_t* pairs;
     std::uint32_t* manifolds;
     std::uint32_t* point_counts;
@@ -25,13 +28,14 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    std::uint32_t* out = nullptr;         // of separate_boxes: a BoxPair for each of `items`
-    std::uint32_t* groups = nullptr;      // constraints and impulses of the contacts in `items`, one per lane
-    bool plain = false;                   // no contact bounces or rolls, none has a tyre or a surface of its own
-    bool watched = false;                 // `impulses` is read after every stage, not after the last alone
-    float* impact_debts = nullptr;        // of each body, J (restitution.h)
-    float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
+    std::uint32_t* out = nullptr;     // of separate_boxes: a BoxPair for each of `items`
+    std::uint32_t* groups = nullptr;  // constraints and impulses of the contacts in `items`, one per lane
+    bool plain = false;               // no contact bounces or rolls, none has a tyre or a surface of its own
+    bool watched = false;             // `impulses` is read after every stage, not after the last alone
+    bool carries = false;             // preparation carries impulses of persistent contacts forward, and is that of all contacts
+    float* impact_debts = nullptr;    // of each body, J (restitution.h)
+    float* carried = nullptr;         // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;          // Counts::steps in the first substep, for the hysteresis of mass splitting
     const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene
     bool first = false;                   // the first substep of a step
     bool last = false;                    // the last one
@@ -42,13 +46,13 @@ struct WideTables {
 // passes of the step's substeps keep them; the last pass transposes the impulses back.
 struct WideStages {
     int lanes;
-    // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs).
+    // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs), with their manifolds
+    // (collide_persistent).
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
-    // Pairs whose contacts persist: their manifolds (collide_persistent).
-    void (*persist)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs of boxes: their separating axes and margins (collide).
     void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
-    // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts).
+    // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts). With
+    // `carries` of all contacts, and what persistent ones take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);

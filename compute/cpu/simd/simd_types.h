@@ -323,5 +323,8 @@ SCREE_INLINE void broadcast(const uint32_t* words, Record& record) {
 LAWS_END
 
 // From here on the types of the laws are lanes; compute/cpu/simd/simd_stages.cpp ends that.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wkeyword-macro"
+#endif
 #define float Float
 #define bool Bool

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "compute/device/arithmetic_check.h"
 #include "compute/device/device_runner.h"
 #include "demos/program/backend_timing.h"
 #include "demos/program/exit_status.h"
@@ -22,6 +23,14 @@ double Backend::copy_speed() const {
 
 std::string Backend::driver() const {
     return device ? device->report().driver : "";
+}
+
+bool Backend::draws() const {
+    return device && device->report().has_graphics;
+}
+
+std::string Backend::arithmetic_fault() const {
+    return device ? check_arithmetic(device).fault : "";
 }
 
 void Backend::require_valid() const {

@@ -18,6 +18,7 @@ DeviceComparison compare_with_device(const Scene& scene, const Settings& setting
     const Backend backend = choose_machine(other, Choice::a_device);
     DeviceComparison found;
     found.device = backend.device->report().name;
+    found.arithmetic_fault = backend.arithmetic_fault();
     found.result = at_work([&] {
         try {
             return compare_in_lockstep(scene, settings, backend.device, machine.threads, steps, progress, copies, from);

@@ -22,6 +22,14 @@ std::string Backend::driver() const {
     return "";
 }
 
+bool Backend::draws() const {
+    return false;
+}
+
+std::string Backend::arithmetic_fault() const {
+    return "";
+}
+
 void Backend::require_valid() const {}
 
 Backend choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {

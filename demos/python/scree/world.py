@@ -596,7 +596,7 @@ class World:
         self._native.drop_states()
 
     def write_checkpoint(self, path: Union[str, "os.PathLike[str]"], note: str = "") -> None:
-        """Writes save() and a note to a file, atomically; scree run --resume reads it. Raises OSError."""
+        """Writes save() and a note to a file, atomically, for read_checkpoint. Raises OSError."""
         self._native.write_checkpoint(os.fspath(path), note)
 
     def read_checkpoint(self, path: Union[str, "os.PathLike[str]"]) -> str:

@@ -10,6 +10,8 @@ namespace scree::host {
 namespace {
 
 CanvasOptions checked(CanvasOptions options, const Device& device) {
+    if (!device.report().has_graphics)
+        throw DeviceError("canvas: " + device.report().name + " has no queue with graphics; draw with OpenGL ES (--canvas gl)");
     const auto most = static_cast<int>(std::min(device.limits().maxFramebufferWidth, device.limits().maxFramebufferHeight));
     if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
         throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +

@@ -260,6 +260,8 @@ CONSTANT uint CONSTRAINT_ON_B = 8u;
 CONSTANT uint CONSTRAINT_ROUND = 16u;       // neither: the single point of two round bodies follows both
 CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not resist spinning
 CONSTANT uint CONSTRAINT_RESTLESS = 64u;    // the leak of its impulses is not smaller (unrest.h)
+CONSTANT uint CONSTRAINT_FOLLOWS = 128u;    // its block has a contact before it (contact_block.h)
+CONSTANT uint CONSTRAINT_LEADS = 256u;      // its block has a contact behind it
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts
@@ -279,8 +281,8 @@ struct Constraint {
     uint flags;                   // CONSTRAINT_*, with the number of points
     float tyre_slip;              // speed of slip up to which a tyre's friction rises, m/s, or 0: no tyre rolls
     float radius_a, radius_b;     // CONSTRAINT_ROUND: of curvature, m
-    uint pad0;
-    float slide_limit;  // slide after which the points have left the body they slide over, m
+    uint links;                   // next_of_block()
+    float slide_limit;            // slide after which the points have left the body they slide over, m
 };
 struct VelocityDelta {     // velocity change of one body by one contact; summed in the order of slots
     vec3 linear;           // m/s
@@ -542,6 +544,7 @@ CONSTANT uint FEATURE_FILTERS = 256u;     // collision filters, excluded pairs
 CONSTANT uint FEATURE_SURFACES = 512u;    // materials with more than friction, restitution and rolling resistance
 CONSTANT uint FEATURE_COPIES = 1024u;     // several copies of a scene
 CONSTANT uint FEATURE_GRAVITIES = 2048u;  // whose gravity differs
+CONSTANT uint FEATURE_BLOCKS = 4096u;     // compounds or meshes: pairs of bodies in several contacts
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

@@ -161,10 +161,6 @@ LAW uint depth_of(float approach, Parameters parameters) {
     uint depth = 2u + 3u * ((floatBitsToUint(ratio) >> 23) - 127u);
     return depth < DEEPEST ? depth : DEEPEST;
 }
-// A sleeper's contact keeps the load of the last step in which both bodies were awake.
-LAW float load_of(bool one_sleeps, Contact before, Impulse was) {
-    return one_sleeps ? before.load : normal_impulse(was);
-}
 LAW bool load_changed(float now, float then, BodyProperties sleeper, Parameters parameters) {
     float weight = length3(parameters.gravity) * abs(sleeper.gravity_scale) * parameters.h * reciprocal(sleeper.inverse_mass);
     return abs(now - then) > LOAD_CHANGE * (then + weight);

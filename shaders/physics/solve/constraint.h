@@ -17,6 +17,14 @@ LAW bool is_of_round_bodies(Constraint c) {
     return (c.flags & CONSTRAINT_ROUND) != 0u;
 }
 
+// Whether a pass over its block begins with another contact: the biased pass begins with the first, the relax pass with the last.
+LAW bool follows_in_block(Constraint c) {
+    return (c.flags & CONSTRAINT_FOLLOWS) != 0u;
+}
+LAW bool leads_in_block(Constraint c) {
+    return (c.flags & CONSTRAINT_LEADS) != 0u;
+}
+
 LAW vec3 lever_arm(Constraint c, int point) {
     return vec3(c.arms_x[point], c.arms_y[point], c.arms_z[point]);
 }

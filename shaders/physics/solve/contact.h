@@ -3,6 +3,7 @@
 #define SCREE_PHYSICS_CONTACT_H
 
 #include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/solve/carried_contact.h"
 
 LAWS_BEGIN
 
@@ -20,27 +21,6 @@ LAW float match_radius(Contact now, Contact before, BodyProperties a, BodyProper
     if (now.count < 3u || before.count < 3u) return MATCHED * smaller(min_half_width(a), min_half_width(b));
     float width = smaller(patch_width(a, now.orientation_a, now.normal), patch_width(b, now.orientation_b, now.normal));
     return (is_general_convex(a.shape) || is_general_convex(b.shape) ? PATCH_MATCHED : FACE_MATCHED) * width;
-}
-
-LAW Impulse no_impulse(vec3 d) {
-    Impulse impulse;
-    impulse.normal = vec4(0.0f);
-    impulse.solved_normal = vec4(0.0f);
-    impulse.separation = vec4(0.0f);
-    impulse.impact = vec4(0.0f);
-    impulse.rebound_energy = 0.0f;
-    impulse.impact_energy = 0.0f;
-    impulse.impact_weight = 0.0f;
-    impulse.flight_energy = 0.0f;
-    impulse.friction = vec3(0.0f);
-    impulse.twist = 0.0f;
-    impulse.rolling = vec3(0.0f);
-    impulse.slide_distance = 0.0f;
-    impulse.center_offset = d;
-    impulse.normal_sum = 0.0f;
-    impulse.stretch = vec3(0.0f);
-    impulse.turn = 0.0f;
-    return impulse;
 }
 
 // For each new point the index of the matching old point, or NONE: the nearest unmatched one within `radius`, measured
@@ -116,26 +96,6 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.orientation_a = a.orientation;
     contact.orientation_b = b.orientation;
     return contact;
-}
-
-LAW vec4 separations_of(Manifold manifold) {
-    return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
-}
-
-// A contact that persists keeps its impulses.
-LAW Impulse carry_forward(Contact contact, Impulse was) {
-    Impulse impulse = no_impulse(contact.center_offset);
-    impulse.normal = was.normal;
-    impulse.solved_normal = was.solved_normal;
-    impulse.impact = was.impact;
-    impulse.rebound_energy = was.rebound_energy;
-    impulse.impact_energy = was.impact_energy;
-    impulse.friction = was.friction;
-    impulse.twist = was.twist;
-    impulse.rolling = was.rolling;
-    impulse.stretch = was.stretch;
-    impulse.turn = was.turn;
-    return impulse;
 }
 
 LAWS_END

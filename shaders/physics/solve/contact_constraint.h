@@ -80,7 +80,7 @@ LAW Constraint idle_constraint(Contact contact) {
     c.tyre_slip = 0.0f;
     c.radius_a = 0.0f;
     c.radius_b = 0.0f;
-    c.pad0 = 0u;
+    c.links = 0u;
     c.slide_limit = 1.0e30f;
     return c;
 }

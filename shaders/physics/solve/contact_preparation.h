@@ -5,6 +5,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/carried_contact.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
@@ -31,8 +32,7 @@ LAW bool is_carried_forward(uint pair_type) {
 LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
     PreparedContact prepared;
     prepared.contact = before;
-    prepared.impulse = carry_forward(prepared.contact, was);
-    prepared.impulse.separation = separations_of(manifold);
+    prepared.impulse = carried_impulse(before, was, manifold);
     return prepared;
 }
 // A contact made in this step.
@@ -56,13 +56,6 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     prepared.impulse.separation = separation;
     prepared.contact.unrest = before.unrest;
     return prepared;
-}
-
-// The load that waking compares with the present one (sleep.h): a dynamic body without a slot sleeps.
-LAW float load_since(Contact before, Impulse was, BodyProperties a, uint slot_a, BodyProperties b, uint slot_b) {
-    bool a_sleeps = slot_a == NONE && motion_of(a) == MOTION_DYNAMIC;
-    bool b_sleeps = slot_b == NONE && motion_of(b) == MOTION_DYNAMIC;
-    return load_of(a_sleeps || b_sleeps, before, was);
 }
 
 LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {

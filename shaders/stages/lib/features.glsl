@@ -17,6 +17,7 @@ const bool SURFACES = (FEATURES & FEATURE_SURFACES) != 0u;
 const bool FILTERS = (FEATURES & FEATURE_FILTERS) != 0u;
 const bool COPIES = (FEATURES & FEATURE_COPIES) != 0u;
 const bool GRAVITIES = (FEATURES & FEATURE_GRAVITIES) != 0u;
+const bool BLOCKS = (FEATURES & FEATURE_BLOCKS) != 0u;
 
 // The variant of a shared module: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;
@@ -25,6 +26,7 @@ layout(constant_id = 3) const uint VARIANT = 0u;
 // zero.
 Constraint narrowed(Constraint c) {
     if (!BOUNCES) c.restitution = 0.0f;
+    if (!BLOCKS) c.links = 0u;
     if (!ROLLS) c.rolling_resistance = 0.0f;
     if ((FEATURES & FEATURE_ROUND) == 0u) c.flags = c.flags & ~CONSTRAINT_ROUND;
     if ((FEATURES & FEATURE_TYRES) == 0u) c.tyre_slip = 0.0f;

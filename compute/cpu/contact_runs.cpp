@@ -1,0 +1,154 @@
+// Runs of contacts to solve.
+#include "compute/cpu/contact_runs.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "compute/cpu/stages.h"
+#include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/solve/contact_preparation.h"
+
+namespace scree::reference {
+
+namespace {
+
+// Contacts that lanes take together, because they skip the same work: as many points, bearing or not, of round bodies or not.
+// Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
+constexpr std::size_t lane_classes = 16, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
+bool is_of_block(std::uint8_t solver_class) {
+    return solver_class % inner_classes == lane_classes;
+}
+
+std::uint8_t class_among(const State& state, std::uint32_t a, std::uint32_t b, std::size_t inner_class) {
+    const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
+    const bool at_border = is_ghost(a) || is_ghost(b);
+    return static_cast<std::uint8_t>(inner_classes * at_border + inner_class);
+}
+
+// The same where the gravity of copies differs: by copy, then by class.
+void sort_by_copy(State& state) {
+    const auto solved = std::span(state.contacts_to_solve).first(state.counted().solver_contacts);
+    const auto key = [&](std::uint32_t contact) {
+        const std::uint32_t copy = state.copy_of(state.contacts[contact].a);
+        return std::tuple(copy, state.solver_classes[contact], contact);
+    };
+    const auto run_of = [&](std::uint32_t contact) {
+        const auto [copy, solver_class, self] = key(contact);
+        return State::Run{0, 0, copy, is_of_block(solver_class)};
+    };
+    std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+    for (std::uint32_t k = 0; k < solved.size(); ++k) {
+        const State::Run run = run_of(solved[k]);
+        const bool goes_on =
+            k > 0 && state.solver_runs.back().copy == run.copy && state.solver_runs.back().of_blocks == run.of_blocks;
+        if (!goes_on) state.solver_runs.push_back({k, k, run.copy, run.of_blocks});
+        state.solver_runs.back().last = k + 1;
+    }
+}
+
+}  // namespace
+
+bool is_carried_in_lanes(const State& state, std::size_t contact) {
+    return state.pairs[state.contact_pairs[contact]].pair_type == physics::PAIR_PERSISTENT &&
+           !physics::is_idle(state.contact_slots[2 * contact], state.contact_slots[2 * contact + 1]);
+}
+
+std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
+                            bool of_block) {
+    const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
+    return class_among(state, a, b, of_block ? lane_classes : 4 * (2 * round + !bears) + (4 - contact.count));
+}
+
+std::uint8_t class_of_persistent(const State& state, std::size_t contact) {
+    const std::uint32_t index = state.contact_pairs[contact];
+    return class_among(state, state.body_of(state.pairs[index].a), state.body_of(state.pairs[index].b),
+                       4 - state.point_counts[index]);
+}
+
+void sort_contacts_to_solve(State& state, const Threads& threads) {
+    const physics::Counts& counts = state.counted();
+    state.solver_runs.clear();
+    state.inner_contacts = counts.solver_contacts;
+    if (!state.gravities.empty()) return sort_by_copy(state);
+    using Places = std::array<std::uint32_t, solver_classes>;
+    const auto counts_of = [&](std::size_t first, std::size_t last) {
+        Places found{};
+        for (std::size_t i = first; i < last; ++i)
+            if (state.solver_classes[i] != not_solved) ++found[state.solver_classes[i]];
+        return found;
+    };
+    Places next{};
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        const Places found = counts_of(first, last);
+        for (std::size_t k = 0; k < solver_classes; ++k) taken(threads, next[k], found[k]);
+    });
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
+    state.inner_contacts = next[inner_classes];
+    const std::uint32_t inner_blocks = next[lane_classes], border_blocks = next[inner_classes + lane_classes];
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        Places places = counts_of(first, last);
+        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(threads, next[k], places[k]);
+        for (std::size_t i = first; i < last; ++i)
+            if (state.solver_classes[i] != not_solved)
+                state.contacts_to_solve[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
+    });
+    state.solver_runs = {{0, inner_blocks, 0, false},
+                         {inner_blocks, state.inner_contacts, 0, true},
+                         {state.inner_contacts, border_blocks, 0, false},
+                         {border_blocks, counts.solver_contacts, 0, true}};
+}
+
+namespace {
+
+constexpr std::size_t words_of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) / sizeof(std::uint32_t);
+std::size_t groups_of(std::size_t contacts, std::size_t lanes) {
+    return (contacts + lanes - 1) / lanes;
+}
+
+}  // namespace
+
+// Room for the groups of all contacts to solve; each run ends with a group of its own.
+void make_room_for_groups(State& state, std::size_t lanes) {
+    const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.solver_runs.size();
+    const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
+    if (state.lane_contacts.size() < lines) state.lane_contacts.resize(lines + lines / 4);
+}
+
+void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass,
+                    const BlockPass& block_pass) {
+    const auto lanes = static_cast<std::size_t>(wide.lanes);
+    const auto begun_before = [&](const State::Run& run, std::uint32_t end) {
+        return groups_of(std::clamp(end, run.first, run.last) - run.first, lanes);
+    };
+    const auto pass_over = [&](std::size_t k, const auto& share_out) {
+        const State::Run& run = state.solver_runs[k];
+        if (run.of_blocks) {
+            const std::uint32_t begin = std::clamp(state.passed_first(), run.first, run.last);
+            const std::uint32_t end = std::clamp(state.passed_last(), run.first, run.last);
+            return share_out(end - begin, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) block_pass(state.contacts_to_solve[begin + i]);
+            });
+        }
+        WideTables own = tables;
+        own.items += run.first;
+        own.groups += (run.first / lanes + k) * lanes * words_of_contact;
+        if (!state.gravities.empty()) own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
+        const std::size_t begin = begun_before(run, state.passed_first()), end = begun_before(run, state.passed_last());
+        share_out(end - begin, [&](std::size_t first, std::size_t last) {
+            pass(own, (begin + first) * lanes, std::min<std::size_t>((begin + last) * lanes, run.last - run.first));
+        });
+    };
+    if (state.gravities.empty()) {
+        for (std::size_t k = 0; k < state.solver_runs.size(); ++k)
+            pass_over(k, [&](std::size_t n, const auto& range) { threads.for_ranges(n, range, Threads::grain / lanes); });
+    } else {
+        threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
+            pass_over(k, [](std::size_t n, const auto& range) { range(std::size_t{0}, n); });
+        });
+    }
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,37 @@
+// The contacts to solve in the order in which SIMD lanes and ranks take them: runs of contacts, groups of lanes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "compute/cpu/simd/simd_stages.h"
+#include "compute/step/state.h"
+#include "compute/step/threads.h"
+
+namespace scree::reference {
+
+constexpr std::uint8_t not_solved = 0xFF;
+
+// Contacts that lanes carry forward as they prepare them (WideTables::carries).
+bool is_carried_in_lanes(const State& state, std::size_t contact);
+
+// The class (State::solver_classes) of a contact of bodies a and b, by which contacts to solve are sorted.
+std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
+                            bool of_block);
+// Of a persistent contact, which bore an impulse, and whose bodies are not both round (may_persist).
+std::uint8_t class_of_persistent(const State& state, std::size_t contact);
+
+// Sorts contacts_to_solve by class and finds its runs.
+void sort_contacts_to_solve(State& state, const Threads& threads);
+
+// Makes room for the groups of all contacts to solve; each run ends with a group of its own.
+void make_room_for_groups(State& state, std::size_t lanes);
+
+// Calls pass(tables, first, last) for the groups of this pass, those that begin in its range, and block_pass(contact) for its
+// contacts of blocks.
+using WidePass = void (*)(const WideTables&, std::size_t first, std::size_t last);
+using BlockPass = std::function<void(std::size_t contact)>;
+void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass,
+                    const BlockPass& block_pass);
+
+}  // namespace scree::reference

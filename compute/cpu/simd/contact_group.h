@@ -1,0 +1,145 @@
+// A group of contacts in lanes: what the passes of a step keep of it, and the bodies it reads and writes. For
+// compute/cpu/simd/simd_stages.cpp, after the laws.
+#pragma once
+
+LAWS_BEGIN
+
+namespace {
+
+using reference::WideTables;
+
+SCREE_INLINE Words lane_numbers() {
+    Words numbers;
+    for (int lane = 0; lane < lanes; ++lane) numbers[lane] = static_cast<std::uint32_t>(lane);
+    return numbers;
+}
+// The next items; lanes beyond the end repeat the last one.
+SCREE_INLINE Uint listed(const std::uint32_t* items, std::size_t first, std::size_t last) {
+    Words found;
+    if (last - first >= lanes) {
+        __builtin_memcpy(&found, items + first, sizeof found);
+    } else {
+        for (int lane = 0; lane < lanes; ++lane) {
+            const std::size_t item = first + static_cast<std::size_t>(lane);
+            found[lane] = items[item < last ? item : last - 1];
+        }
+    }
+    return found;
+}
+SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
+    return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
+}
+
+// What the passes of a step keep of a group of contacts.
+struct Kept {
+    Constraint c;
+    Impulse impulse;
+};
+SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
+    return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
+}
+// Of large worlds they come from beyond the second cache.
+SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (last - first <= lanes) return;
+    const char* const next = reinterpret_cast<const char*>(&kept(tables, first + lanes));
+#pragma GCC unroll 4
+    for (std::size_t line = 0; line < sizeof(Kept); line += 64) __builtin_prefetch(next + line);
+}
+
+// Specialisation by the features of a scene, as for devices (shaders/stages/lib/features.glsl): the compiler removes the
+// code of what is constant. Replaces only members that are compared, or keep the sign of a zero.
+template <bool plain>
+SCREE_INLINE Constraint narrowed(Constraint c) {
+    if (!plain) return c;
+    c.restitution = c.rolling_resistance = c.tyre_slip = 0.0f;
+    c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;
+    return c;
+}
+template <bool plain>
+SCREE_INLINE Impulse narrowed(Impulse impulse) {
+    if (!plain) return impulse;
+    impulse.impact = vec4(0.0f);
+    impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
+    return impulse;
+}
+
+SCREE_INLINE void to_slots(const WideTables& tables, Bool live, const Constraint& c, const VelocityPair& share, Float weight,
+                           Float normal_impulse) {
+    scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
+    scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
+}
+
+// A group of contacts, one per lane, with solver data and bodies.
+template <bool plain>
+struct Group {
+    Kept& kept_;
+    Bool live;  // false in lanes beyond the end
+    Constraint c;
+    Impulse impulse;
+    Indices a, b;
+    VelocityPair before;
+
+    SCREE_INLINE Group(const WideTables& tables, std::size_t first, std::size_t last)
+        : kept_(kept(tables, first)),
+          live(living(first, last)),
+          c(narrowed<plain>(kept_.c)),
+          impulse(narrowed<plain>(kept_.impulse)),
+          a(c.a),
+          b(c.b),
+          before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
+
+    SCREE_INLINE vec4 impacts_state(const WideTables& tables, const Parameters& p) const {
+        if (none(c.restitution > 0.0f)) return vec4(0.0f);
+        return choose(c.restitution > 0.0f,
+                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
+                                   gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
+                      vec4(0.0f));
+    }
+    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
+        to_slots(tables, live, c, share, weight, normal_impulse);
+    }
+    // What the biased pass changes, and what both do: fields that stay are not written.
+    SCREE_INLINE void keep_solved(const Impulse& after) const {
+        kept_.impulse.normal = after.normal;
+        kept_.impulse.friction = after.friction;
+        kept_.impulse.twist = after.twist;
+        kept_.impulse.rolling = after.rolling;
+        kept_.impulse.stretch = after.stretch;
+        kept_.impulse.turn = after.turn;
+        if (plain) return;
+        kept_.impulse.impact = after.impact;
+        kept_.impulse.rebound_energy = after.rebound_energy;
+        kept_.impulse.impact_energy = after.impact_energy;
+        kept_.impulse.impact_weight = after.impact_weight;
+        kept_.impulse.flight_energy = after.flight_energy;
+    }
+    SCREE_INLINE void keep(const Impulse& after) const {
+        keep_solved(after);
+        kept_.impulse.solved_normal = after.solved_normal;
+        kept_.impulse.separation = after.separation;
+        kept_.impulse.slide_distance = after.slide_distance;
+        kept_.impulse.center_offset = after.center_offset;
+        kept_.impulse.normal_sum = after.normal_sum;
+    }
+    // The table of impulses from what is kept.
+    SCREE_INLINE void give_back(const WideTables& tables, std::size_t first, std::size_t last) const {
+        scatter(tables.impulses, Indices(listed(tables.items, first, last)).only(live), kept_.impulse);
+    }
+};
+
+// Of each lane the record of one or the other.
+template <typename Record>
+SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {
+    Record chosen;
+    for (std::size_t word = 0; word < sizeof(Record) / sizeof(Words); ++word) {
+        AnyWords of_a, of_b;
+        __builtin_memcpy(&of_a, reinterpret_cast<const AnyWords*>(&a) + word, sizeof of_a);
+        __builtin_memcpy(&of_b, reinterpret_cast<const AnyWords*>(&b) + word, sizeof of_b);
+        reinterpret_cast<AnyWords*>(&chosen)[word] = condition.v ? of_a : of_b;
+    }
+    return chosen;
+}
+
+}  // namespace
+
+LAWS_END

@@ -1,0 +1,166 @@
+// World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Runner::share_out).
+//
+// Of the scene a rank keeps the bodies that do not move, and those of a range of ids: it is their home. What is asked of all
+// bodies in the order of ids, hashes and sums, is found there. All else brings the whole world back to every rank.
+#define XXH_STATIC_LINKING_ONLY
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "compute/world/scene_bytes.h"
+#include "compute/world/world_impl.h"
+
+namespace scree {
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Steps without a look at the whole world after which it is shared out again.
+constexpr int steps_to_share = 8;
+
+struct TravellingBody {
+    std::uint32_t id = 0;
+    BodyRecord now;
+};
+
+template <class Record>
+void append_record(Bytes& bytes, const Record& record) {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    const std::size_t at = bytes.size();
+    bytes.resize(at + sizeof record);
+    std::memcpy(&bytes[at], &record, sizeof record);
+}
+template <class Record>
+Record record_at(const Bytes& bytes, std::size_t at) {
+    Record record;
+    std::memcpy(static_cast<void*>(&record), &bytes.at(at), sizeof record);
+    return record;
+}
+
+const HullForm* form_of(const Body& body) {
+    const Hull* hull = std::get_if<Hull>(&body.shape);
+    return hull ? hull->form.get() : nullptr;
+}
+
+}  // namespace
+
+bool World::Impl::can_be_shared() const {
+    const auto is_dropped = [](const auto& grip) { return !grip.has_value(); };
+    const auto is_plain = [](const Body& body) { return body.piece_of == no_body; };
+    return actions.empty() && arrivals.empty() && freed.empty() && free_indices.empty() && !reorder_now &&
+           !events.settings().any() && std::all_of(grips.begin(), grips.end(), is_dropped) && scene.joints.empty() &&
+           scene.vehicles.empty() && scene.exclusions.empty() && state.body_count == state.fixed().first_part &&
+           std::find(gone.begin(), gone.end(), std::uint8_t{1}) == gone.end() &&
+           std::all_of(scene.bodies.begin(), scene.bodies.end(), is_plain) && runner->can_share_out();
+}
+
+void World::Impl::share_out_when_due() {
+    if (runner->ranks() == 1 || shared) return;
+    const bool waits = steps_until_shared > 0;
+    if (waits || !can_be_shared()) {
+        steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
+        return state.allocate_all();
+    }
+    runner->share_out();
+    const std::size_t bodies = scene.bodies.size();
+    const auto ranks = static_cast<std::size_t>(runner->ranks()), rank = static_cast<std::size_t>(runner->rank());
+    Shared& own = shared.emplace();
+    own.bodies = bodies;
+    own.per_rank = (bodies + ranks - 1) / ranks;
+    own.first = std::min(bodies, rank * own.per_rank);
+    own.planes = solid_planes(scene, 0, bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        Body& body = scene.bodies[i];
+        if (const HullForm* form = form_of(body); form && own.hull_places.try_emplace(form, own.hulls.size()).second)
+            own.hulls.push_back(std::get<Hull>(body.shape));
+        if (body.motion != Motion::dynamic) own.still[i] = body;
+        if (i >= own.first && i < own.first + own.per_rank) own.home.push_back(std::move(body));
+    }
+    std::vector<Body>().swap(scene.bodies);  // its memory, too
+}
+
+void World::Impl::make_whole() {
+    if (runner->ranks() > 1 && steps > 0) steps_until_shared = steps_to_share;
+    if (runner->in_place()) state.allocate_all();
+    if (!shared) return;
+    runner->make_whole();
+    ByteWriter out;
+    for (Body& body : shared->home) {
+        if (body.motion != Motion::dynamic) continue;
+        const HullForm* form = form_of(body);
+        out.put(form ? static_cast<std::uint32_t>(shared->hull_places.at(form)) : physics::NONE);
+        if (form) body.shape = Box{};
+        put_value(out, body);
+    }
+    const std::vector<Bytes> told = runner->gather(out.bytes());
+    std::vector<Body> bodies(shared->bodies);
+    for (auto& [id, body] : shared->still) bodies[id] = std::move(body);
+    for (std::size_t r = 0; r < told.size(); ++r) {
+        ByteReader in(told[r]);
+        for (std::size_t id = r * shared->per_rank; !in.at_end(); ++id) {
+            if (shared->still.contains(id)) continue;
+            const auto hull = in.take<std::uint32_t>();
+            take_value(in, bodies[id]);
+            if (hull != physics::NONE) bodies[id].shape = shared->hulls[hull];
+        }
+    }
+    scene.bodies = std::move(bodies);
+    shared.reset();
+}
+
+// Of the bodies at home here, in the order of ids.
+std::vector<BodyRecord> World::Impl::records_at_home() const {
+    std::vector<Bytes> to(static_cast<std::size_t>(runner->ranks()));
+    std::vector<BodyRecord> records(shared->home.size());
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
+        if (state.is_owned(row)) {
+            const std::uint32_t id = state.id_of(row);
+            append_record(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
+        }
+    for (const auto& [id, body] : shared->still)
+        if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
+    for (const Bytes& told : runner->swap(to))
+        for (std::size_t at = 0; at < told.size(); at += sizeof(TravellingBody)) {
+            const auto body = record_at<TravellingBody>(told, at);
+            records.at(body.id - shared->first) = body.now;
+        }
+    return records;
+}
+
+// The hash passes from rank to rank, each of which adds the bodies at home there.
+std::uint64_t World::Impl::hash_of_shares() const {
+    std::vector<float> values;
+    for (const BodyRecord& now : records_at_home()) append_hashed(values, now.pose, now.velocity);
+    XXH64_state_t hash;
+    XXH64_reset(&hash, 0);
+    for (int rank = 0; rank < runner->ranks(); ++rank) {
+        Bytes said;
+        if (rank == runner->rank()) {
+            XXH64_update(&hash, values.data(), values.size() * sizeof(float));
+            append_record(said, hash);
+        }
+        hash = record_at<XXH64_state_t>(runner->gather(said)[static_cast<std::size_t>(rank)], 0);
+    }
+    return XXH64_digest(&hash);
+}
+
+Statistics World::Impl::statistics_of_shares() const {
+    BodySums own;
+    const std::vector<BodyRecord> records = records_at_home();
+    for (std::size_t i = 0; i < records.size(); ++i)
+        own.add(shared->home[i], records[i], scene.gravity, shared->planes, state.fixed().sleep_steps);
+    Bytes said;
+    append_record(said, own);
+    BodySums all;
+    for (const Bytes& told : runner->gather(said)) all.add(record_at<BodySums>(told, 0));
+    Statistics found = all.statistics();
+    found.spin_limited = state.counted().spin_limited;
+    add_contacts(all_contact_sums(), found);
+    return found;
+}
+
+}  // namespace scree

@@ -1,0 +1,84 @@
+// Queues and limits of devices: queues that compute only, steps submitted in pieces, inputs that travel with a step, allocations
+// that are too large.
+#include <catch2/catch.hpp>
+
+#include "compute/device/device_runner.h"
+#include "compute/world.h"
+#include "host/canvas/canvas.h"
+#include "tests/stages/watched_device.h"
+#include "tests/world/heaps.h"
+#include "tests/world/museum.h"
+
+using namespace scree;
+
+namespace {
+
+std::unique_ptr<DeviceRunner> runner_on(const Watched& watched) {
+    return std::make_unique<DeviceRunner>(watched.device);
+}
+
+}  // namespace
+
+TEST_CASE("a device whose queue only computes simulates with the bits of the CPU, and canvases say what draws instead",
+          "[stages][vulkan]") {
+    const Watched watched({.without_graphics = true});
+    const Scene scene = tests::museum(60);
+    World cpu(scene, {}, 2), there(scene, {}, runner_on(watched));
+    cpu.step(20);
+    there.step(20);
+    CHECK(there.state_hash() == cpu.state_hash());
+    CHECK_THROWS_WITH(host::make_vulkan_canvas(watched.device, {}, {}),
+                      Catch::Contains("no queue with graphics; draw with OpenGL ES"));
+}
+
+TEST_CASE("a step that takes long is submitted in pieces, with the same bits, overflowing lists and times of its stages",
+          "[stages][vulkan]") {
+    const bool timed = GENERATE(false, true);
+    CAPTURE(timed);
+    const Watched watched;
+    const Scene scene = tests::museum(60);
+    World cpu(scene, {}, 2);
+    auto runner = runner_on(watched);
+    DeviceRunner& device = *runner;
+    device.submit_within(1e-4);
+    World there(scene, {}, std::move(runner));
+    there.set_profiling(timed);
+    CHECK(device.submissions_of_a_step() == 1);
+    for (const int steps : {1, 1, 30}) {
+        cpu.step(steps);
+        there.step(steps);
+        REQUIRE(there.state_hash() == cpu.state_hash());
+    }
+    CHECK(device.submissions_of_a_step() > 4);
+    CHECK(there.stage_times().empty() == !timed);
+    if (!timed) return;
+    for (const auto& [stage, milliseconds] : there.stage_times()) {
+        CAPTURE(stage);
+        CHECK(milliseconds >= 0);
+    }
+}
+
+TEST_CASE("actions and edits of parameters between steps reach the device with the step, in every way of running steps",
+          "[stages][vulkan]") {
+    const bool staged = GENERATE(false, true);
+    CAPTURE(staged);
+    const Watched watched({.staged = staged});
+    const Scene scene = tests::packed(40);
+    World cpu(scene, {}, 2), there(scene, {}, runner_on(watched));
+    const std::size_t last = scene.bodies.size() - 1;
+    for (World* world : {&cpu, &there}) {
+        for (int k = 0; k < 12; ++k) {
+            world->apply_impulse(last - static_cast<std::size_t>(k) % 5, {0.0f, 40.0f + static_cast<float>(k), 5.0f});
+            if (k % 4 == 1) world->set_gravity({0.1f * static_cast<float>(k), -9.0f, 0.0f});
+            world->step(1 + k % 3);
+        }
+    }
+    CHECK(there.state_hash() == cpu.state_hash());
+}
+
+TEST_CASE("a table that a device cannot allocate at once is refused with the limit and with what would fit", "[stages][vulkan]") {
+    const Watched watched({.largest_buffer = 40'000});
+    const Scene scene = tests::packed(2000);
+    CHECK_THROWS_WITH(World(scene, {}, runner_on(watched)),
+                      Catch::Contains("maxMemoryAllocationSize") && Catch::Contains("bodies like these would fit"));
+}
