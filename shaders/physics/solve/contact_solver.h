@@ -62,6 +62,14 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     return c;
 }
 
+// A contact that bears nothing and approaches faster than gravity makes it in so many substeps waits for the next substep, where
+// its bodies are split among all that they meet. The relax pass knows only the contacts that were active when the substep began:
+// of 2,000 heavy bodies that fell upon light ones on up to five supports, 213 left with more energy than they brought, up to
+// hundreds of times, because each support answered with the whole mass. With restitution every approach of a point waits, and is
+// an impact there or none. (With an impulse for what a speculative impact had moved by 0.02 m/s, a ball was in resting contact
+// with the next one when the rest of the impact came, and a touching row of four passed on a third of its energy.)
+CONSTANT float ARRIVAL = 4.0f;
+
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
 // are still apart. `part`: part_of_stiffness() of its block, 1 for a contact by itself.
 LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, float part,
@@ -80,11 +88,17 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         striking = choose(bounces, impact_velocities(c, impulse, v, a, b, state, parameters), vec4(0.0f));
     }
     bool strikes = is_any(striking);
+    // A single sweep would leave what falls flat without restitution with a spin.
+    bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f;
+    if (!none(arrives)) {
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, c.centre, impulse.center_offset), v));
+        arrives = arrives && speed < -ARRIVAL * fall_speed(parameters);
+    }
     vec4 normal_before = impulse.normal;
     VelocityPair before_impact = v;
     float normal = 0.0f;
     float cut = choose((c.flags & CONSTRAINT_RESTLESS) != 0u, 0.0f, LEAK_CUT);
-    uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), 1u);
+    uint sweeps = choose((strikes && point_count(c) > 1u) || arrives, uint(IMPACT_SWEEPS), 1u);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
@@ -118,19 +132,13 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
 
-// A point that bears nothing and approaches faster than gravity makes it in so many substeps waits for the next substep, where
-// its bodies are split among all that they meet. The relax pass knows only the contacts that were active when the substep began:
-// of 2,000 heavy bodies that fell upon light ones on up to five supports, 213 left with more energy than they brought, up to
-// hundreds of times, because each support answered with the whole mass. With restitution every approach waits, and is an impact
-// there or none. (With an impulse for what a speculative impact had moved by 0.02 m/s, a ball was in resting contact with the
-// next one when the rest of the impact came, and a touching row of four passed on a third of its energy.)
-CONSTANT float ARRIVAL = 4.0f;
 // A body in motion that contacts do not move; what it meets does not wait: after the last substep it would be left behind.
 LAW bool drives(Mass mass, Velocity velocity) {
     return mass.inverse_mass == 0.0f && dot3(velocity.linear, velocity.linear) + dot3(velocity.angular, velocity.angular) > 0.0f;
 }
-LAW float arrival_speed(Constraint c, VelocityPair v, Mass a, Mass b, Parameters parameters) {
-    float least = choose(drives(a, v.a) || drives(b, v.b), 1.0e30f, ARRIVAL * fall_speed(parameters));
+LAW float arrival_speed(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    bool goes_on = normal_impulse(impulse) > 0.0f || drives(a, v.a) || drives(b, v.b);
+    float least = choose(goes_on, 1.0e30f, ARRIVAL * fall_speed(parameters));
     return choose(c.restitution > 0.0f, 0.0f, least);
 }
 
@@ -164,7 +172,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, state, debt);
     impulse = result.impulse;
     v = result.pair_velocity;
-    float arrival = arrival_speed(c, v, a, b, parameters);
+    float arrival = arrival_speed(c, impulse, v, a, b, parameters);
     float normal = 0.0f;
     vec4 momentum = vec4(0.0f);
     for (int k = 0; k < 4; ++k) {
