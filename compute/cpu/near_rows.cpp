@@ -59,7 +59,7 @@ void list_row(const State& state, std::uint32_t i, std::vector<std::uint32_t>& f
     }
 }
 
-void list_rows(State& state, const Threads& threads) {
+void list_near_rows(State& state, const Threads& threads) {
     NearRows& near = state.near_rows;
     const std::size_t bodies = state.fixed().bodies;
     near.firsts.resize(bodies);
@@ -125,7 +125,7 @@ bool find_near_rows(State& state, const Threads& threads) {
     if (!few) return false;
     if (!near.is_listed) {
         outside = place_rows(state, threads);
-        list_rows(state, threads);
+        list_near_rows(state, threads);
     }
     return !outside.reaches_far;
 }

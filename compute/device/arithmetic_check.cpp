@@ -19,7 +19,7 @@ namespace {
 
 using physics::ArithmeticCase;
 
-constexpr std::uint32_t threads_of_a_group = 64;  // shaders/queries/check_arithmetic.comp
+constexpr std::uint32_t threads_of_the_check = 64;  // shaders/queries/check_arithmetic.comp
 constexpr std::uint32_t random_triples = 1000;
 
 constexpr std::array<const char*, physics::CHECKED_OPERATIONS> names{"a + b",          "a - b",
@@ -141,7 +141,7 @@ ArithmeticReport check_arithmetic(const std::shared_ptr<host::Device>& device) {
     host::CommandBuffer commands(device);
     commands.bind(pipeline, bound);
     commands.push(&count, sizeof count);
-    commands.dispatch((count + threads_of_a_group - 1) / threads_of_a_group);
+    commands.dispatch((count + threads_of_the_check - 1) / threads_of_the_check);
     commands.barrier();
     commands.end();
     device->submit_and_wait({commands.handle()});
