@@ -230,8 +230,8 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
         physics::Impulse& impulse = state.impulses[i];
         const float debt = physics::part_of_debts(impulse, state.impact_debts[c.a], state.forces[c.a], ma,
                                                   state.impact_debts[c.b], state.forces[c.b], mb);
-        const physics::SolveResult after =
-            physics::relax_contact(c, impulse, moved, v, ma, mb, impact_state(state, c), debt, part, felt_by(state, c.a));
+        const physics::SolveResult after = physics::relax_contact(c, impulse, moved, v, ma, mb, impact_state(state, c), debt,
+                                                                  part, last ? 1.0f : 0.0f, felt_by(state, c.a));
         if (felt) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = begins ? carried : state.carried[i] + carried;

@@ -167,7 +167,7 @@ DemoScene bridge(const DemoOptions& options) {
             low,
             high,
             15,
-            Promise(gaps_below("between planks", 0.0006), carried, none_torn()).watching(all)};
+            Promise(gaps_below("between planks", 0.00045), carried, none_torn()).watching(all)};
 }
 
 DemoScene ragdolls(const DemoOptions& options) {

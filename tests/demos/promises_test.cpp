@@ -14,9 +14,9 @@ namespace {
 const std::vector<std::string> quick = {"rest", "stack", "seesaw", "slopes", "cradle", "dominoes"};
 const std::vector<std::string> standing = {"tower",      "stack20", "stack80", "smallstack", "ministack", "heavytop",
                                            "heaviertop", "cards",   "jenga",   "scales",     "coins"};
-const std::vector<std::string> moving = {"onset",     "hold",    "steep",  "rolling",   "bounce",   "tumbling", "swarm",
-                                         "shots",     "strikes", "solids", "compounds", "rollmesh", "yaw",      "spins",
-                                         "turntable", "blows",   "pairs",  "plough",    "arches",   "capstan",  "joinedshots"};
+const std::vector<std::string> moving = {
+    "onset", "hold",     "steep", "rolling", "bounce",    "tumbling", "swarm", "shots",  "strikes", "solids",  "compounds",
+    "feet",  "rollmesh", "yaw",   "spins",   "turntable", "blows",    "pairs", "plough", "arches",  "capstan", "joinedshots"};
 const std::vector<std::string> heaps = {"pile",    "mix",     "avalanche", "assortment", "mix1m",   "bins",
                                         "overlap", "terrain", "mesh",      "calm",       "fountain"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};

@@ -50,7 +50,6 @@ TEST_CASE("a step that takes long is submitted in pieces, with the same bits, ov
         REQUIRE(there.state_hash() == cpu.state_hash());
     }
     CHECK(device.submissions_of_a_step() > 4);
-    CHECK(there.stage_times().empty() == !timed);
     if (!timed) return;
     for (const auto& [stage, milliseconds] : there.stage_times()) {
         CAPTURE(stage);

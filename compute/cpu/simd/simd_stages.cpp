@@ -249,7 +249,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
-                                                debts(tables, group, ma, mb), 1.0f, p);
+                                                debts(tables, group, ma, mb), 1.0f, tables.last ? 1.0f : 0.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);

@@ -132,20 +132,27 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
 
-// A body in motion that contacts do not move; what it meets does not wait: after the last substep it would be left behind.
+// A body in motion that contacts do not move; what it meets does not wait: after the last substep it would be left behind. For
+// the same reason nothing without restitution waits in the last substep (continuous collision would clamp what moves on, and a
+// clamp changes the angular momentum), nor what would be through the other body in one substep (longest_wait()).
 LAW bool drives(Mass mass, Velocity velocity) {
     return mass.inverse_mass == 0.0f && dot3(velocity.linear, velocity.linear) + dot3(velocity.angular, velocity.angular) > 0.0f;
 }
-LAW float arrival_speed(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, Parameters parameters) {
-    bool goes_on = normal_impulse(impulse) > 0.0f || drives(a, v.a) || drives(b, v.b);
+LAW float arrival_speed(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, float last, Parameters parameters) {
+    bool goes_on = last > 0.0f || normal_impulse(impulse) > 0.0f || drives(a, v.a) || drives(b, v.b);
     float least = choose(goes_on, 1.0e30f, ARRIVAL * fall_speed(parameters));
     return choose(c.restitution > 0.0f, 0.0f, least);
 }
+// The fastest approach that waits, m/s.
+LAW float longest_wait(Constraint c, Parameters parameters) {
+    return choose(c.restitution > 0.0f, 1.0e30f, (2.0f * c.slide_limit) * parameters.inverse_h);
+}
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
-// applies restitution and friction. `debt`: part_of_debts(); `part`: part_of_stiffness().
+// applies restitution and friction. `debt`: part_of_debts(); `part`: part_of_stiffness(); `last`: 1 in the last substep of a
+// step, else 0.
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b, vec4 state,
-                              float debt, float part, Parameters parameters) {
+                              float debt, float part, float last, Parameters parameters) {
     bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
@@ -172,7 +179,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, state, debt);
     impulse = result.impulse;
     v = result.pair_velocity;
-    float arrival = arrival_speed(c, impulse, v, a, b, parameters);
+    float arrival = arrival_speed(c, impulse, v, a, b, last, parameters);
+    float fastest = longest_wait(c, parameters);
     float normal = 0.0f;
     vec4 momentum = vec4(0.0f);
     for (int k = 0; k < 4; ++k) {
@@ -184,7 +192,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         float speed = dot3(c.normal, velocity_at(r, v));
         float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
         float before = impulse.normal[k];
-        bool waits = speed < -arrival;
+        bool waits = speed < -arrival && speed > -fastest;
         bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
         if (none(acts)) continue;
         JacobianRow row = jacobian_row(r, c.normal, a, b);

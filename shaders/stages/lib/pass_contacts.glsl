@@ -111,7 +111,8 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
     if (BOUNCES && is_impact(impulse))
         debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
                              READ(forces, c.b), mb);
-    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part, felt_by(c.a));
+    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part, (pass & LAST_SUBSTEP) != 0u ? 1.0f : 0.0f,
+                                      felt_by(c.a));
     if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
