@@ -121,7 +121,7 @@ DemoScene feet(const DemoOptions& options) {
     for (const int count : {2, 5}) add_column(scene, stool(), 0.51f, count, {x += 1.5f, 0, 0}, random);
     add_column(scene, table(0.1f), 0.08f, 3, {x += 1, 0, 0}, random);
     const vec3 low(-4, 0, -1), high(x + 0.5f, 4, 1);
-    Promise promise(drift_below(0.0019), end_speed_below(rest_speed, 10), end_spin_below(rest_spin, 10));
+    Promise promise(drift_below(0.0018), end_speed_below(rest_speed, 10), end_spin_below(rest_spin, 10));
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20, std::move(promise)});
 }
 
