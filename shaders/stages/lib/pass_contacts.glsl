@@ -101,18 +101,18 @@ struct Relaxed {
     float pad2;
 };
 // The relax pass over one contact of a block. It also writes the next substep's warm start, or in the last substep the quiet
-// steps of either body for the other, and sums the contact's impulse over the step where bodies may break. `moved`: the velocities
-// of the whole bodies.
-Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair moved, Mass ma, Mass mb, float part,
-                  uint pass) {
+// steps of either body for the other, and sums the contact's impulse over the step where bodies may break. `moved`: the
+// velocities of the whole bodies.
+Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair moved, Mass ma, Mass mb,
+                  float part, uint pass) {
     VelocityPair before = block.velocity;
     vec4 state = state_of_impacts(c);
     float debt = 0.0f;
     if (BOUNCES && is_impact(impulse))
         debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
                              READ(forces, c.b), mb);
-    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part, (pass & LAST_SUBSTEP) != 0u ? 1.0f : 0.0f,
-                                      felt_by(c.a));
+    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part,
+                                      (pass & LAST_SUBSTEP) != 0u ? 1.0f : 0.0f, felt_by(c.a));
     if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
