@@ -55,14 +55,16 @@ int compare(const CompareOptions& options) {
         return interrupted;
     }
     const LockstepResult& result = found.result;
-    if (!found.arithmetic_fault.empty())
-        fmt::print("{}: {} is not exact, so steps will differ sooner or later: its {}\n", subject.name, found.device,
-                   found.arithmetic_fault);
+    if (result.equal && !found.arithmetic_fault.empty()) {
+        fmt::print("{}: {} is not exact, so it is not equal, though {} steps met no difference: its {}\n", subject.name,
+                   found.device, steps - before, found.arithmetic_fault);
+        return promise_missed;
+    }
     if (result.equal) {
         fmt::print("{}: processor and {} agree in every bit of every stage over {} steps{}; state hash {}\n", subject.name,
                    found.device, steps - before, before ? fmt::format(" after the first {}", before) : "",
                    hash_text(result.hash));
-        return found.arithmetic_fault.empty() ? done : promise_missed;
+        return done;
     }
     fmt::print("{}: processor and {} differ first in step {} (counted from 1), stage {}, buffer {}, element {}: {}\n",
                subject.name, found.device, result.step + 1, result.stage, result.buffer, result.element, result.detail);

@@ -96,9 +96,6 @@ const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 struct Relaxed {
     VelocityPair velocity;  // of the split bodies
     float weight;           // of the block in mass splitting, so far
-    float pad0;
-    float pad1;
-    float pad2;
 };
 // The relax pass over one contact of a block. It also writes the next substep's warm start, or in the last substep the quiet
 // steps of either body for the other, and sums the contact's impulse over the step where bodies may break. `moved`: the
