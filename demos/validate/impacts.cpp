@@ -149,6 +149,41 @@ double rise(const Lab& lab, Body body, double restitution, double half_height) {
     return top;
 }
 
+// The speed along the blow with which two welded balls, the upper at an angle to it, leave a block, of that with which they
+// came; in empty space. A rigid body of two mass points m with own inertia 2/5 m r^2 each.
+constexpr double joined_restitution = 0.7;
+double joined_theory(double degrees) {
+    const double arm = 0.5 * std::sin(degrees * pi / 180);  // r = 0.5 m
+    const double inverse_mass = 0.5, inertia = 2 * (0.4 * 0.25 + 0.25);
+    return -1 + (1 + joined_restitution) / (1 + arm * arm / (inertia * inverse_mass));
+}
+double joined_leaves(const Lab& lab, double degrees) {
+    constexpr float speed = 4;
+    Scene scene;
+    scene.gravity = vec3(0);
+    const auto slant = static_cast<float>(degrees * pi / 180);
+    const vec3 axis(std::sin(slant), std::cos(slant), 0);
+    scene.bodies = {ball_at({0, 0.9f, 0}, {0, -speed, 0}), ball_at(vec3(0, 0.9f, 0) + axis, {0, -speed, 0})};
+    for (Body& body : scene.bodies) body.restitution = static_cast<float>(joined_restitution);
+    Body block;
+    block.motion = Motion::fixed;
+    block.shape = Box{{0.2f, 0.5f, 0.2f}};
+    block.position = {0, -0.5f, 0};
+    block.friction = 0;
+    scene.bodies.push_back(block);
+    Joint weld;
+    weld.kind = Fixed{};
+    weld.a = 0;
+    weld.b = 1;
+    weld.anchor_a = 0.5f * axis;
+    weld.anchor_b = -weld.anchor_a;
+    scene.joints = {weld};
+    World world = lab.world(scene);
+    for (int i = 0; i < lab.steps(1) && world.body(0).velocity.y < -0.99f * speed; ++i) world.step();
+    world.step();
+    return 0.5 * static_cast<double>(world.body(0).velocity.y + world.body(1).velocity.y) / static_cast<double>(speed);
+}
+
 }  // namespace
 
 std::vector<Experiment> impact_experiments() {
@@ -216,6 +251,17 @@ std::vector<Experiment> impact_experiments() {
                    {0.5, 1, 2, 5, 10},
                    [](double) { return 1.0; },
                    meet});
+    all.push_back({"bounce-joined",
+                   "two welded balls leave a block that the lower one strikes",
+                   "u / v = (1 + e) / (1 + M x^2 / I) - 1, e = 0.7",
+                   "impulse of a rigid body struck at the arm x",
+                   "angle to the blow, degrees",
+                   "speed of the centre of mass, of that before",
+                   0,
+                   0.0025,
+                   {0, 5, 20, 40, 60, 80},
+                   joined_theory,
+                   joined_leaves});
     all.push_back({"gas",
                    "gases of balls keep their energy for 10 s, in the mean of four",
                    "energy after = energy before",
