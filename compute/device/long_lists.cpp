@@ -1,5 +1,5 @@
-// Lists that are longer than a software device can do: it ends a shader's loops after 65,535 rounds in all without a word. The ends
-// of lists are copied out of each step, and a step with too long a list is refused by name.
+// Lists that are longer than a software device can do: it ends a shader's loops after 65,535 rounds in all without a word. The
+// ends of lists are copied out of each step, and a step with too long a list is refused by name.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -65,7 +65,8 @@ void DeviceRunner::copy_list_ends(host::CommandBuffer& commands, const Stage& st
         if (stage.name != sorted_lists[i].stage) continue;
         host::Buffer& back = list_ends_[parity_][i];
         // All items in one list, or short lists of one workgroup, are what takes most.
-        const bool may_be_long = device_->report().is_processor && std::max<std::uint64_t>(sorting_rounds(items[i], p.group_size), items[i]) > most_rounds_of_a_list;
+        const bool may_be_long = device_->report().is_processor && std::max<std::uint64_t>(sorting_rounds(items[i], p.group_size),
+                                                                                           items[i]) > most_rounds_of_a_list;
         if (!may_be_long) back = {};
         if (!may_be_long) continue;
         const std::size_t bytes = lists[i] * sizeof(std::uint32_t);

@@ -26,7 +26,7 @@ public:
         std::uint32_t rows, bodies;  // all; those that move are below `bodies`
         Records first_contacts;      // of each row, and the end of all
         std::vector<Records> of_bodies;
-        std::vector<std::pair<Records, std::size_t>> with_rows;  // and which word of a record is a row
+        std::vector<std::pair<Records, std::size_t>> with_rows;            // and which word of a record is a row
         std::vector<std::pair<Records, const host::Buffer*>> of_contacts;  // and where they move to
     };
     // Row r shall hold what is in row from[r]. Allocates and uploads; throws host::DeviceError if memory is short or a table is

@@ -181,7 +181,8 @@ struct State {
     // them in its own tables (Runner::move_rows), only those that the host knows by itself, `contacts_too` false. Strong
     // exception guarantee.
     void reorder(const std::vector<std::uint32_t>& rows, const Threads& threads, bool contacts_too = true);
-    std::vector<std::uint32_t> rows_before(const std::vector<std::uint32_t>& rows) const;  // of all rows, where reorder() takes them from
+    // Of all rows, those that reorder() takes their records from.
+    std::vector<std::uint32_t> rows_before(const std::vector<std::uint32_t>& rows) const;
     bool reordered() const {
         return !rows_.empty();
     }

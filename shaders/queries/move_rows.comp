@@ -29,12 +29,12 @@ moves;
 
 layout(push_constant) uniform Push {
     uint step;
-    uint items;    // rows, records, contacts
-    uint rows;     // all
-    uint record;   // length of one, words
-    uint begin;    // of the table in its buffer, words
-    uint first;    // FOLLOW: which word of a record is a row; else begin of first_contacts, words
-    uint bodies;   // rows that move are below
+    uint items;   // rows, records, contacts
+    uint rows;    // all
+    uint record;  // length of one, words
+    uint begin;   // of the table in its buffer, words
+    uint first;   // FOLLOW: which word of a record is a row; else begin of first_contacts, words
+    uint bodies;  // rows that move are below
 }
 push;
 
@@ -45,7 +45,7 @@ const uint COUNT_BLOCK = 3u;  // contacts of each row, summed within its block
 const uint SUM_BLOCKS = 4u;   // one workgroup
 const uint FIRST = 5u;        // adds these sums
 const uint MOVE_CONTACTS = 6u;
-const uint ITEMS = 16u;       // rows of a thread in a block
+const uint ITEMS = 16u;  // rows of a thread in a block
 
 uint from_of(uint row) {
     return moves.at[row];

@@ -43,7 +43,8 @@ void main() {
     for (uint i = 0u; i < noted; ++i) {
         uvec2 own = entries_of(long_range[i]);
         sort_range_together(own.x, own.y);
-#define SCREE_COPY(t) if ((t) < own.y) copy_bounds(own.x + (t));
+#define SCREE_COPY(t) \
+    if ((t) < own.y) copy_bounds(own.x + (t));
         FOR_FOUR(t, own.y, SCREE_COPY)
 #undef SCREE_COPY
     }

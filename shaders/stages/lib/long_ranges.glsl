@@ -30,12 +30,9 @@ uint long_ranges_noted() {
 
 // Shares `count` items among the threads. Four a round: lavapipe silently ends a shader's loops after 65,535 rounds in all
 // (compute/device/long_lists.cpp counts them). `what` is a macro that does nothing from `count` on.
-#define FOR_FOUR(t, count, what)                                                       \
-    for (uint t = gl_LocalInvocationID.x; t < (count); t += 4u * gl_WorkGroupSize.x) { \
-        what(t)                                                                        \
-        what(t + gl_WorkGroupSize.x)                                                   \
-        what(t + 2u * gl_WorkGroupSize.x)                                              \
-        what(t + 3u * gl_WorkGroupSize.x)                                              \
+#define FOR_FOUR(t, count, what)                                                                                 \
+    for (uint t = gl_LocalInvocationID.x; t < (count); t += 4u * gl_WorkGroupSize.x) {                           \
+        what(t) what(t + gl_WorkGroupSize.x) what(t + 2u * gl_WorkGroupSize.x) what(t + 3u * gl_WorkGroupSize.x) \
     }
 
 #endif

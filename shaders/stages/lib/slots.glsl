@@ -79,7 +79,8 @@ void order_long_slots() {
     for (uint i = 0u; i < noted; ++i) {
         uvec2 own = slots_of(long_range[i]);
         sort_range_together(own.x, own.y);
-#define SCREE_ASSIGN(t) if ((t) < own.y) assign_slot(own.x + (t));
+#define SCREE_ASSIGN(t) \
+    if ((t) < own.y) assign_slot(own.x + (t));
         FOR_FOUR(t, own.y, SCREE_ASSIGN)
 #undef SCREE_ASSIGN
     }

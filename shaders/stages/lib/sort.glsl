@@ -69,7 +69,8 @@ void step_in_list(uint first, uint count, uint reach, bool flips) {
 
 // Sorts up to TILE items, or merges them if earlier steps reached farther.
 void sort_tile(uint first, uint count, bool merges) {
-#define SCREE_TAKE(t) if ((t) < count) tile[t] = SORT_KEY(first + (t));
+#define SCREE_TAKE(t) \
+    if ((t) < count) tile[t] = SORT_KEY(first + (t));
     FOR_FOUR(t, count, SCREE_TAKE)
 #undef SCREE_TAKE
     end_part();
@@ -78,7 +79,8 @@ void sort_tile(uint first, uint count, bool merges) {
         for (uint nearer = reach >> 1; nearer > 0u; nearer >>= 1) step_in_tile(count, nearer, false);
     }
     for (uint nearer = merges ? TILE >> 1 : 0u; nearer > 0u; nearer >>= 1) step_in_tile(count, nearer, false);
-#define SCREE_PUT(t) if ((t) < count) SORT_SET(first + (t), tile[t]);
+#define SCREE_PUT(t) \
+    if ((t) < count) SORT_SET(first + (t), tile[t]);
     FOR_FOUR(t, count, SCREE_PUT)
 #undef SCREE_PUT
     end_part();
