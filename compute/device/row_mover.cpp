@@ -12,7 +12,7 @@ namespace scree {
 namespace {
 
 enum MovingStep : std::uint32_t { go_to, move_records, follow, count_block, sum_blocks, first_of_rows, move_contacts };
-constexpr std::uint32_t bindings_of_moves = 4;  // shaders/queries/move_rows.comp
+constexpr std::uint32_t bindings_of_moves = 6;  // shaders/queries/move_rows.comp
 constexpr std::size_t rows_of_a_thread = 16;    // likewise
 
 }  // namespace
@@ -20,14 +20,14 @@ constexpr std::size_t rows_of_a_thread = 16;    // likewise
 RowMover::RowMover(std::shared_ptr<host::Device> device, std::uint32_t group_size)
     : device_(std::move(device)), group_size_(group_size) {
     layout_ = std::make_shared<host::BindingSetLayout>(device_, bindings_of_moves, sizeof(Push));
-    pipeline_ =
-        std::make_unique<host::Pipeline>(layout_, "move_rows", shaders::find("move_rows.query"), std::vector{group_size_});
+    for (const std::uint32_t sums_up : {0u, 1u})
+        pipelines_.emplace_back(layout_, "move_rows", shaders::find("move_rows.query"), std::vector{group_size_, sums_up});
 }
 
 const host::BindingSet& RowMover::bound(const host::Buffer& table, const host::Buffer& moved) {
     const std::pair key(&table, &moved);
     if (!sets_.contains(key)) {
-        const std::vector<const host::Buffer*> buffers{&table, &moved, tables_.first_contacts.buffer, &moves_};
+        const std::vector<const host::Buffer*> buffers{&table, &moved, tables_.first_contacts.buffer, &moves_, &table, &moved};
         sets_.emplace(key, host::BindingSet(layout_, buffers));
     }
     return sets_.at(key);
@@ -41,7 +41,7 @@ void RowMover::run(std::uint32_t step, std::size_t items, const Records& of, std
                     static_cast<std::uint32_t>(of.begin),
                     static_cast<std::uint32_t>(first),
                     tables_.bodies};
-    commands_->bind(*pipeline_, set);
+    commands_->bind(pipelines_[step == count_block || step == sum_blocks ? 1 : 0], set);
     commands_->push(&push, sizeof push);
     const std::size_t groups = (items + group_size_ - 1) / group_size_;
     commands_->dispatch(static_cast<std::uint32_t>(

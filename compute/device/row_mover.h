@@ -44,7 +44,7 @@ private:
     std::shared_ptr<host::Device> device_;
     std::uint32_t group_size_;
     std::shared_ptr<host::BindingSetLayout> layout_;
-    std::unique_ptr<host::Pipeline> pipeline_;
+    std::vector<host::Pipeline> pipelines_;  // of steps without and with sums over rows
     Tables tables_{};
     host::Buffer moves_, scratch_;
     std::map<std::pair<const host::Buffer*, const host::Buffer*>, host::BindingSet> sets_;

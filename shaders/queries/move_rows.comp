@@ -27,6 +27,19 @@ layout(std430, set = 0, binding = 3) buffer Moves {
 }
 moves;
 
+// The same two, four words at once.
+layout(std430, set = 0, binding = 4) readonly buffer QuadsNow {
+    uvec4 at[];
+}
+quads;
+layout(std430, set = 0, binding = 5) writeonly buffer QuadsMoved {
+    uvec4 at[];
+}
+quads_moved;
+
+// Steps with barriers apart, since lavapipe keeps the variables of all that meet one in memory.
+layout(constant_id = 1) const bool SUMS_UP = false;
+
 layout(push_constant) uniform Push {
     uint step;
     uint items;   // rows, records, contacts
@@ -118,25 +131,35 @@ uint owner_of(uint contact) {
     return low;
 }
 
+void move_record(uint now, uint then) {
+    uint words_each = push.record;
+    if (((now | then | words_each) & 3u) == 0u) {
+        for (uint k = 0u; k < words_each >> 2; ++k) quads_moved.at[(then >> 2) + k] = quads.at[(now >> 2) + k];
+    } else {
+        for (uint k = 0u; k < words_each; ++k) moved.at[then + k] = table.at[now + k];
+    }
+}
+
 void move_contact(uint contact) {
     uint owner = owner_of(contact);
     uint place = moves.at[firsts() + to_of(owner)] + contact - words.at[push.first + owner];
-    for (uint k = 0u; k < push.record; ++k)
-        moved.at[push.begin + place * push.record + k] = table.at[push.begin + contact * push.record + k];
+    move_record(push.begin + contact * push.record, push.begin + place * push.record);
 }
 
 void main() {
     uint block_rows = gl_WorkGroupSize.x * ITEMS, blocks = (push.rows + block_rows - 1u) / block_rows;
-    if (push.step == SUM_BLOCKS) sum_blocks(blocks);
-    if (push.step == COUNT_BLOCK)
-        for (uint block = gl_WorkGroupID.x; block < blocks; block += gl_NumWorkGroups.x) count_block(block);
+    if (SUMS_UP) {
+        if (push.step == SUM_BLOCKS) sum_blocks(blocks);
+        if (push.step == COUNT_BLOCK)
+            for (uint block = gl_WorkGroupID.x; block < blocks; block += gl_NumWorkGroups.x) count_block(block);
+        return;
+    }
     uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     for (uint i = gl_GlobalInvocationID.x; i < push.items; i += stride) {
         if (push.step == GO_TO) {
             moves.at[push.rows + from_of(i)] = i;
         } else if (push.step == MOVE) {
-            for (uint k = 0u; k < push.record; ++k)
-                moved.at[i * push.record + k] = table.at[push.begin + from_of(i) * push.record + k];
+            move_record(push.begin + from_of(i) * push.record, i * push.record);
         } else if (push.step == FOLLOW) {
             uint place = push.begin + i * push.record + push.first;
             table.at[place] = to_of(table.at[place]);
