@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,12 @@ public:
     void upload(const std::vector<TableRange>& ranges);
     void download(const std::vector<TableRange>& ranges);
     std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // so far, by upload()
+
+    // Moving bodies to other rows, of runners that do it in their own tables: row r shall hold what is in row from[r]. False:
+    // memory is short or it cannot; all is as before. move_rows() then moves all lasting data and what refers to bodies, but for
+    // ids and filters, which are the caller's to upload; no such call fails but for a lost device.
+    virtual bool prepare_to_move(std::span<const std::uint32_t> /* from */) { return false; }
+    virtual void move_rows() {}
 
     // For rollback, of runners that are not in_place(): keeps copies of ranges of its tables under a number, in its own
     // memory, and brings them back to where these tables are by then. The latter adapts nothing and leaves counts alone.

@@ -337,7 +337,7 @@ public:
     Joint joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis = vec3(1, 0, 0)) const;
 
     // Reorders bodies in memory along a Morton curve before the next step. Worlds of thousands of bodies do so by
-    // themselves (Settings::reordering). Reads everything back and uploads it again once.
+    // themselves (Settings::reordering). On a device this reads all poses; the tables are moved there.
     void reorder();
     std::uint64_t reorderings() const;           // done so far; each moves bodies to other rows of state()
     std::size_t row_of(std::size_t body) const;  // in the tables of state(); throws std::out_of_range
@@ -409,7 +409,7 @@ public:
     void drop_states();                              // all; frees their memory
 
     std::uint64_t buffer_growths() const;
-    std::size_t buffer_bytes() const;  // of all tables, at present
+    std::size_t buffer_bytes() const;  // of all tables and, on the CPU, of the lists beside them; at present
     // Whether later steps are timed stage by stage. Off at first on a Vulkan device, where a timestamp costs time: 10
     // us per stage on lavapipe.
     void set_profiling(bool on);

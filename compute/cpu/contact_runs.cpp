@@ -114,7 +114,9 @@ std::size_t groups_of(std::size_t contacts, std::size_t lanes) {
 void make_room_for_groups(State& state, std::size_t lanes) {
     const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.solver_runs.size();
     const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
-    if (state.lane_contacts.size() < lines) state.lane_contacts.resize(lines + lines / 4);
+    if (state.lane_contacts.size() >= lines) return;
+    state.lane_contacts = {};  // freed first; nothing in it lasts from step to step
+    state.lane_contacts.resize(lines + lines / 16);
 }
 
 void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass,

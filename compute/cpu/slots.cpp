@@ -53,7 +53,6 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
             solved.begin(), solved.end(),
             state.contacts_to_solve.begin() + taken(threads, counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
     });
-    counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
 }
 
 void sort_slots(State& state, const Threads& threads, std::uint32_t) {
@@ -84,6 +83,7 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
         }
     });
     state.first_contacts[n] = state.counted().contacts;
+    state.counted().arguments[physics::WORK_SOLVER_CONTACTS] = physics::work_for(state.counted().solver_contacts, state.fixed());
 }
 
 }  // namespace scree::reference

@@ -60,7 +60,9 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
         if (slept(state, b) && !slept(state, a) && wakes(state, pair, b, a, approach)) raise(state, b, physics::WOKEN);
         const std::uint32_t depth = physics::depth_of(approach, state.fixed());
         for (const std::uint32_t body : {a, b}) raise(state, body, physics::shaking_bit(depth));
-        if (depth > 1) std::atomic_ref(counts.arguments[physics::WORK_WAKE].x).store(counts.arguments[physics::WORK_CONTACTS].x);
+        if (depth <= 1) return;
+        std::atomic_ref(counts.arguments[physics::WORK_WAKE].x).store(counts.arguments[physics::WORK_CONTACTS].x);
+        std::atomic_ref(counts.arguments[physics::WORK_WAKE].y).store(counts.arguments[physics::WORK_CONTACTS].y);
     });
 }
 

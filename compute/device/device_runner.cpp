@@ -189,6 +189,7 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
     const physics::Parameters& p = state_->fixed();
     commands.bind(pipelines_.at(pipeline_of(stage)), *tables_[parity_]);
     commands.push(&stage.pass, sizeof(stage.pass));
+    const auto direct = [&](physics::uvec4 work) { commands.dispatch(std::max(1u, work.x), work.y); };
     const auto indirect = [&](physics::uint row) {
         commands.dispatch_indirect(buffers_[buffer_of(Table::counts)], argument_offset(row));
     };
@@ -197,19 +198,19 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
             commands.dispatch(1);
             break;
         case DispatchDomain::actions:
-            commands.dispatch(physics::work_for(state_->action_room, p).x);
+            direct(physics::work_for(state_->action_room, p));
             break;
         case DispatchDomain::bodies:
-            commands.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
+            direct(physics::work_for(p.bodies, p));
             break;
         case DispatchDomain::buckets:
-            commands.dispatch(physics::work_for(physics::buckets_in_all(p) + 1, p).x);
+            direct(physics::work_for(physics::buckets_in_all(p) + 1, p));
             break;
         case DispatchDomain::body_scan_blocks:
-            commands.dispatch(physics::scan_work_for(p.bodies, p).x);
+            direct(physics::scan_work_for(p.bodies, p));
             break;
         case DispatchDomain::bucket_scan_blocks:
-            commands.dispatch(physics::scan_work_for(physics::buckets_in_all(p), p).x);
+            direct(physics::scan_work_for(physics::buckets_in_all(p), p));
             break;
         case DispatchDomain::pairs:
             indirect(physics::WORK_PAIRS);
@@ -240,11 +241,11 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
             break;
         case DispatchDomain::joint_blocks:
             // Workgroups take further blocks in turn where there are more than a dispatch may have groups.
-            commands.dispatch(std::max(
-                1u, stage.threads_an_item > 0 ? std::min(p.joint_blocks, 65535u) : physics::work_for(p.joint_blocks, p).x));
+            stage.threads_an_item > 0 ? commands.dispatch(std::clamp(p.joint_blocks, 1u, p.most_groups))
+                                      : direct(physics::work_for(p.joint_blocks, p));
             break;
         case DispatchDomain::vehicles:
-            commands.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
+            direct(physics::work_for(p.vehicles, p));
             break;
     }
 }

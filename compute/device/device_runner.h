@@ -13,6 +13,7 @@
 #include "compute/device/make_device_runner.h"
 #include "compute/device/queue_clock.h"
 #include "compute/device/ray_caster.h"
+#include "compute/device/row_mover.h"
 #include "compute/device/step_inputs.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
@@ -44,6 +45,8 @@ public:
     void keep(std::size_t slot, const TableRanges& ranges) override;
     void bring_back(std::size_t slot) override;
     void drop_kept() override { kept_.clear(); }
+    bool prepare_to_move(std::span<const std::uint32_t> from) override;
+    void move_rows() override;
     bool casts(std::size_t rays) const override;
     bool cast(RayTask& task) override;
     void cast_rays_from(std::size_t rays) { fewest_rays_ = rays; }  // batches of fewer rays are cast on the host
@@ -93,6 +96,8 @@ private:
     void make_buffer(std::size_t index);
     void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
     void upload_all();
+    RowMover::Records records_of(Table table, std::size_t count) const;
+    RowMover::Tables tables_to_move() const;
     void bind_tables();
     using Recordings = std::vector<std::unique_ptr<host::CommandBuffer>>;
     const Recordings& whole_step();
@@ -154,6 +159,7 @@ private:
     std::map<std::size_t, Kept> kept_;
     std::unique_ptr<RayCaster> rays_;  // once asked for
     std::optional<std::size_t> fewest_rays_;
+    std::unique_ptr<RowMover> mover_;  // likewise
     // Leases: signalled by each step, once asked for; what the next step waits for; how often buffers were made.
     host::Submission::Moment ready_, returned_;
     std::uint64_t buffers_made_ = 0;

@@ -7,6 +7,7 @@
 
 #include "compute/device/device_runner.h"
 #include "host/vulkan/transfer.h"
+#include "shaders/physics/base/work_counts.h"
 
 namespace scree {
 
@@ -93,17 +94,13 @@ std::size_t room_behind(const State& state, BufferLength length) {
 }  // namespace
 
 void DeviceRunner::make_buffers() {
-    const VkPhysicalDeviceLimits& limits = device_->limits();
-    const std::uint32_t most_groups = limits.maxComputeWorkGroupCount[0];
-    const std::uint32_t widest = std::min({256u, limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations});
+    const auto& most_groups = device_->limits().maxComputeWorkGroupCount;
     physics::Parameters& p = state_->fixed();
-    const std::uint32_t longest = std::max({p.pair_capacity, p.buckets + p.copies, p.contact_capacity});
-    // Wider groups where the device has too few.
-    for (; longest / p.group_size >= most_groups && 2 * p.group_size <= widest; ++p.group_shift) p.group_size *= 2;
-    if (longest / p.group_size >= most_groups)
-        throw host::DeviceError("the scene needs lists of " + std::to_string(std::max(p.pair_capacity, p.buckets)) +
-                                " items, but this device runs at most " +
-                                std::to_string(std::uint64_t{most_groups} * p.group_size) +
+    p.most_groups = most_groups[0];
+    const std::uint32_t longest = std::max({p.pair_capacity, physics::buckets_in_all(p) + 1, p.contact_capacity});
+    if (physics::work_for(longest, p).y > most_groups[1])
+        throw host::DeviceError("the scene needs lists of " + std::to_string(longest) + " items, but this device runs at most " +
+                                std::to_string(std::uint64_t{most_groups[0]} * most_groups[1] * p.group_size) +
                                 " threads at once: use fewer bodies, or --backend cpu");
     buffers_.resize(buffer_count);
     for (std::size_t i = 0; i < buffer_count; ++i)

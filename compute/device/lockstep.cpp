@@ -37,10 +37,10 @@ struct Lockstep::Impl {
         here.attach(state);
     }
 
-    // The device may have widened its groups (DeviceRunner::make_buffers).
     void take_group_size() {
         state.fixed().group_size = image.fixed().group_size;
         state.fixed().group_shift = image.fixed().group_shift;
+        state.fixed().most_groups = image.fixed().most_groups;
     }
 
     bool compare(const Stage& stage, std::size_t index) {

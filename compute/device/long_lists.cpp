@@ -1,6 +1,6 @@
-// Lists that one thread sorts (shaders/stages/lib/sort.glsl), and that a software device may leave unsorted without a word: its
-// loops end after 65,535 rounds in all. Their ends are copied out of each step, and a step with too long a list is refused by
-// name.
+// Lists that are longer than a software device can do: it ends a shader's loops after 65,535 rounds in all without a word. The
+// ends of lists are copied out of each step, and a step with too long a list is refused by name.
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <span>
@@ -13,7 +13,24 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t longest_list = 20000;  // 3.25 rounds an item
+// A workgroup sorts the lists of its threads one after the other (shaders/stages/lib/sort.glsl); besides, a thread takes one
+// round an item of a list.
+constexpr std::uint32_t most_rounds_of_a_list = 60000;
+constexpr std::uint32_t short_range = 32, tile = 1024, compared_a_round = 4;  // sort.glsl
+
+// Rounds of a thread in which its workgroup sorts a list.
+std::uint64_t sorting_rounds(std::uint64_t items, std::uint32_t group_size) {
+    if (items <= short_range) return 0;
+    const std::uint64_t at_once = std::uint64_t{compared_a_round} * group_size;
+    const auto shared = [&](std::uint64_t work) { return work / at_once + 1; };
+    constexpr std::uint64_t levels_of_a_tile = 10;
+    const std::uint64_t tiles = items / tile + 1, transfers = 2 * shared(tile), step = shared(tile / 2) + 1;
+    std::uint64_t rounds = tiles * (levels_of_a_tile * (levels_of_a_tile + 1) / 2 * step + levels_of_a_tile + transfers + 1);
+    std::uint64_t level = 1;
+    for (std::uint64_t reach = tile; reach < items; reach *= 2, ++level)
+        rounds += level * (shared((items + 2 * reach) / 2) + 1) + tiles * (levels_of_a_tile * step + transfers + 1);
+    return rounds + shared(items);
+}
 
 struct SortedList {
     const char* stage;  // that sorts it
@@ -23,13 +40,19 @@ struct SortedList {
 constexpr std::array<SortedList, 2> sorted_lists{{{"sort_cells", Table::cell_ends, "a cell of the broadphase", "bodies"},
                                                   {"sort_slots", Table::slot_ends, "a body", "contacts and joints"}}};
 
-std::uint32_t longest_of(std::span<const std::uint32_t> ends) {
+// The length of a list, if one is too long alone or with those that its workgroup sorts too; else 0.
+std::uint32_t too_long(std::span<const std::uint32_t> ends, std::uint32_t group_size) {
     std::uint32_t longest = 0, begin = 0;
-    for (const std::uint32_t end : ends) {
-        longest = std::max(longest, end - begin);
-        begin = end;
+    std::uint64_t rounds = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (i % group_size == 0) rounds = longest = 0;
+        const std::uint32_t length = ends[i] - begin;
+        begin = ends[i];
+        longest = std::max(longest, length);
+        rounds += sorting_rounds(length, group_size);
+        if (std::max<std::uint64_t>(rounds, longest) > most_rounds_of_a_list) return longest;
     }
-    return longest;
+    return 0;
 }
 
 }  // namespace
@@ -41,7 +64,9 @@ void DeviceRunner::copy_list_ends(host::CommandBuffer& commands, const Stage& st
     for (std::size_t i = 0; i < sorted_lists.size(); ++i) {
         if (stage.name != sorted_lists[i].stage) continue;
         host::Buffer& back = list_ends_[parity_][i];
-        const bool may_be_long = device_->report().is_processor && items[i] > longest_list;
+        // All items in one list, or short lists of one workgroup, are what takes most.
+        const bool may_be_long = device_->report().is_processor && std::max<std::uint64_t>(sorting_rounds(items[i], p.group_size),
+                                                                                           items[i]) > most_rounds_of_a_list;
         if (!may_be_long) back = {};
         if (!may_be_long) continue;
         const std::size_t bytes = lists[i] * sizeof(std::uint32_t);
@@ -58,11 +83,10 @@ void DeviceRunner::require_short_lists(std::size_t parity) const {
         if (!back) continue;
         std::vector<std::uint32_t> ends(back.bytes() / sizeof(std::uint32_t));
         std::memcpy(ends.data(), back.mapped(), back.bytes());
-        const std::uint32_t longest = longest_of(ends);
-        if (longest > longest_list)
+        if (const std::uint32_t longest = too_long(ends, state_->fixed().group_size))
             throw host::DeviceError(std::string(sorted_lists[i].owner) + " has " + std::to_string(longest) + " " +
-                                    sorted_lists[i].items + ", and a software device such as " + device_->report().name +
-                                    " sorts at most " + std::to_string(longest_list) + ": simulate with --backend cpu");
+                                    sorted_lists[i].items + ", more than a software device such as " + device_->report().name +
+                                    " can sort: simulate with --backend cpu");
     }
 }
 

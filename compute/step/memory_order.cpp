@@ -125,15 +125,18 @@ void State::take_rows(std::vector<std::uint32_t> rows) {
         if (properties[row].motion == physics::MOTION_PENDING) spare_part_rows(row - first, 1);
 }
 
-void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads) {
-    const std::uint32_t n = body_count, all = fixed().bodies;
-    std::vector<std::uint32_t> from(all), to(all);  // rows
+std::vector<std::uint32_t> State::rows_before(const std::vector<std::uint32_t>& rows) const {
+    std::vector<std::uint32_t> from(fixed().bodies);
     std::iota(from.begin(), from.end(), 0u);
-    std::iota(to.begin(), to.end(), 0u);
-    for (std::uint32_t id = 0; id < n; ++id) {
-        from[rows[id]] = row_of(id);
-        to[row_of(id)] = rows[id];
-    }
+    for (std::uint32_t id = 0; id < body_count; ++id) from[rows[id]] = row_of(id);
+    return from;
+}
+
+void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads, bool contacts_too) {
+    const std::uint32_t n = body_count, all = fixed().bodies;
+    const std::vector<std::uint32_t> from = rows_before(rows);
+    std::vector<std::uint32_t> to(all);  // rows
+    for (std::uint32_t row = 0; row < all; ++row) to[from[row]] = row;
     // Allocate first, for the strong exception guarantee.
     std::vector<std::uint32_t> by_id = rows;
     // One scratch buffer for all tables: allocation takes longer than the permutation.
@@ -143,7 +146,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     };
     // Contacts are grouped by the row of their owner, within an owner in the order of ids.
     std::vector<physics::uint> first_in_rows;
-    const bool with_contacts = contacts.size() >= counted().contacts && first_contacts.size() > all;
+    const bool with_contacts = contacts_too && contacts.size() >= counted().contacts && first_contacts.size() > all;
     if (with_contacts) {
         contacts_before.resize(contacts.size());
         impulses_before.resize(impulses.size());

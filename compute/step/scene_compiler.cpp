@@ -144,6 +144,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2 / ranks;
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
+    p.most_groups = 65535;  // of any device; a runner may have more
     filter(scene);
     set_fields(scene);
     state_.allocate();

@@ -169,7 +169,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}},
-        {{slot_sides, A::slots}, {first_contacts, A::bodies}, some_only({contact_slots, A::contacts}), {block_bodies}}, physics::FEATURE_REORDERED});
+        {{slot_sides, A::slots}, {first_contacts, A::bodies}, some_only({contact_slots, A::contacts}), {block_bodies}, {counts}}, physics::FEATURE_REORDERED});
     all.push_back({"warm_start_contacts", DispatchDomain::contacts, warm_start_contacts,
         {{counts}, {contact_pairs, A::contacts}, {pairs, A::contacts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {contacts_before, A::contacts}, {impulses_before, A::contacts},
          {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},

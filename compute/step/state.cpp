@@ -272,6 +272,13 @@ std::size_t State::bytes() const {
     return std::accumulate(offsets.bytes.begin(), offsets.bytes.end(), std::size_t{0});
 }
 
+std::size_t State::bytes_of_loops() const {
+    const auto sum = [](const auto&... lists) { return (std::size_t{0} + ... + (lists.size() * sizeof lists[0])); };
+    return sum(pair_manifolds, partners, entry_cells, least_partners, row_kinds, movable_bodies, driven_bodies, movable,
+               fast_pairs, paces, solver_classes, lane_contacts, near_rows.boxes, near_rows.firsts, near_rows.ends,
+               near_rows.others, near_rows.places);
+}
+
 std::span<std::byte> State::raw(Table table) {
     switch (table) {
 #define SCREE_RAW(buffer, name, block, record, length) \

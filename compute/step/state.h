@@ -177,9 +177,12 @@ struct State {
 
     // Moves bodies to other rows: rows[id] is the new one. Rows of parts stay, and those of fragments must (their
     // bodies refer to them). All lasting data moves with its body, and later results stay bit-identical; other data of
-    // the last step becomes invalid. Needs all lasting tables here, and the runner to be attached again. Strong
+    // the last step becomes invalid. Needs all lasting tables here, and the runner to be attached again; or, if the runner moves
+    // them in its own tables (Runner::move_rows), only those that the host knows by itself, `contacts_too` false. Strong
     // exception guarantee.
-    void reorder(const std::vector<std::uint32_t>& rows, const Threads& threads);
+    void reorder(const std::vector<std::uint32_t>& rows, const Threads& threads, bool contacts_too = true);
+    // Of all rows, those that reorder() takes their records from.
+    std::vector<std::uint32_t> rows_before(const std::vector<std::uint32_t>& rows) const;
     bool reordered() const {
         return !rows_.empty();
     }
@@ -270,6 +273,7 @@ struct State {
                                                [&](const physics::BlockBody& member) { return is_owned(member.body); });
     }
     std::size_t bytes() const;                 // of all tables, as on a device
+    std::size_t bytes_of_loops() const;        // of what the CPU loops have beside the tables, by the length in use
     std::size_t raw_bytes(Table table) const;  // of an allocated table
 
     std::span<std::byte> raw(Table table);

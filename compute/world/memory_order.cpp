@@ -34,21 +34,32 @@ void World::Impl::begin_in_order() {
     seconds_to_look = seconds_since(begin);
 }
 
-void World::Impl::keep_order() {
-    const bool asked = std::exchange(reorder_now, false);
-    if (!asked && runner->ranks() > 1) return;  // clocks differ
-    if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
-    const auto begin = Clock::now();
-    bring(body_ranges);
-    const std::vector<std::uint32_t> rows = rows_by_place(scene, state, runner->threads());
-    if (asked || stride_in_space(scene, state) > worth_it * stride_in_space(scene, state, rows)) {
+// A runner with tables of its own moves them there, if it has memory for it.
+void World::Impl::move_to(const std::vector<std::uint32_t>& rows) {
+    if (runner->prepare_to_move(state.rows_before(rows))) {
+        state.reorder(rows, runner->threads(), /* contacts_too */ false);
+        runner->move_rows();
+        runner->adapt();
+    } else {
         bring(lasting_ranges);
         state.reorder(rows, runner->threads());
         runner->adapt();
         TableRanges moved = lasting_ranges(state);
         append(moved, joint_structure_ranges(state));
         runner->upload(moved);
-        runner->upload({{Table::ids, 0, state.fixed().bodies}, {Table::filters, 0, state.filters.size()}});
+    }
+    runner->upload({{Table::ids, 0, state.fixed().bodies}, {Table::filters, 0, state.filters.size()}});
+}
+
+void World::Impl::keep_order() {
+    const bool asked = std::exchange(reorder_now, false);
+    if (!asked && runner->ranks() > 1) return;  // clocks differ
+    if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
+    const auto begin = Clock::now();
+    runner->download({{Table::poses, 0, state.fixed().bodies}});
+    const std::vector<std::uint32_t> rows = rows_by_place(scene, state, runner->threads());
+    if (asked || stride_in_space(scene, state) > worth_it * stride_in_space(scene, state, rows)) {
+        move_to(rows);
         ++reorderings;
         ++arrangements;
         if (timeline) timeline->instant("bodies were reordered in memory", begin);

@@ -59,7 +59,7 @@ std::span<const Record> behind(const std::vector<Record>& records, std::size_t f
 // Without what depends on the runner and its buffers: equal states have equal bytes, on every backend.
 physics::Parameters portable(physics::Parameters p) {
     tell_offsets({}, p);
-    p.group_size = p.group_shift = p.pair_capacity = p.contact_capacity = p.actions = p.redo = 0;
+    p.group_size = p.group_shift = p.most_groups = p.pair_capacity = p.contact_capacity = p.actions = p.redo = 0;
     p.held = 0;  // those in use are written before each step
     for (physics::Grip& grip : p.grips) grip = {};
     return p;
@@ -228,6 +228,7 @@ TableRanges StateBytes::restore(State& state) const {
     p = parameters_;
     p.group_size = own.group_size;
     p.group_shift = own.group_shift;
+    p.most_groups = own.most_groups;
     p.pair_capacity = own.pair_capacity;
     p.contact_capacity = std::max(own.contact_capacity, State::with_reserve(counts_.contacts));
     state.counted() = physics::emptied(counts_, p);

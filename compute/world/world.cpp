@@ -371,7 +371,8 @@ std::uint64_t World::buffer_growths() const {
     return interior_.as_it_is().growths;
 }
 std::size_t World::buffer_bytes() const {
-    return interior_.as_it_is().state.bytes();
+    const Impl& in = interior_.as_it_is();
+    return in.state.bytes() + in.state.bytes_of_loops();
 }
 void World::set_profiling(bool on) {
     interior_.as_it_is().runner->set_profiling(on);

@@ -118,6 +118,7 @@ struct World::Impl {
     int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
     bool keeps_order() const;    // whether bodies are reordered in memory
     void begin_in_order();
+    void move_to(const std::vector<std::uint32_t>& rows);                  // by id
     void keep_order();                                                     // between steps
     void tell_timeline(Timeline::Time begin, std::uint64_t steps_before);  // of steps that have ended
     void make_room_for_actions();

@@ -117,13 +117,13 @@ void CommandBuffer::push(const void* data, std::uint32_t bytes) {
     if (bytes > 0) device_->vk().vkCmdPushConstants(commands_, bound_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, data);
 }
 
-void CommandBuffer::dispatch(std::uint32_t groups) {
-    const std::uint32_t limit = device_->limits().maxComputeWorkGroupCount[0];
-    if (groups > limit) {
-        throw DeviceError("a dispatch of " + std::to_string(groups) + " workgroups, where " + device_->report().name + " takes " +
-                          std::to_string(limit));
+void CommandBuffer::dispatch(std::uint32_t groups, std::uint32_t rows) {
+    const auto& most = device_->limits().maxComputeWorkGroupCount;
+    if (groups > most[0] || rows > most[1]) {
+        throw DeviceError("a dispatch of " + std::to_string(groups) + " x " + std::to_string(rows) + " workgroups, where " +
+                          device_->report().name + " takes " + std::to_string(most[0]) + " x " + std::to_string(most[1]));
     }
-    device_->vk().vkCmdDispatch(commands_, groups, 1, 1);
+    device_->vk().vkCmdDispatch(commands_, groups, rows, 1);
 }
 
 void CommandBuffer::dispatch_indirect(const Buffer& arguments, std::size_t offset) {

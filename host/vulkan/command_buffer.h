@@ -20,7 +20,7 @@ public:
 
     void bind(const Pipeline& pipeline, const BindingSet& table);  // skips redundant binds
     void push(const void* data, std::uint32_t bytes);
-    void dispatch(std::uint32_t groups);
+    void dispatch(std::uint32_t groups, std::uint32_t rows = 1);          // workgroups along the first and the second axis
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
     void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
     void zero(const Buffer& buffer);  // the whole buffer

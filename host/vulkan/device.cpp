@@ -157,6 +157,8 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     queue.pQueuePriorities = &priority;
     if (options.without_texels) in.report.prefers_texels = false;
     if (options.without_graphics) in.report.has_graphics = false;
+    if (options.most_groups)
+        in.limits.maxComputeWorkGroupCount[0] = std::min(in.limits.maxComputeWorkGroupCount[0], options.most_groups);
     if (options.largest_buffer) in.report.largest_buffer = std::min(in.report.largest_buffer, options.largest_buffer);
     if (options.largest_binding) in.report.largest_binding = std::min(in.report.largest_binding, options.largest_binding);
     VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};

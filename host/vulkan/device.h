@@ -66,6 +66,8 @@ struct DeviceOptions {
     bool without_graphics = false;
     // If not 0, caps the largest buffer, bytes.
     std::uint64_t largest_buffer = 0;
+    // If not 0, caps the workgroups of a dispatch along its first axis.
+    std::uint32_t most_groups = 0;
     // Instance extensions of the window system (Display::extensions); if not empty, the device can present.
     std::vector<const char*> window_extensions = {};
     // Receives each validation message, on any thread; Device::validation_messages() also collects them.

@@ -16,6 +16,7 @@ void main() {
     scan_whole();
     end_part();
     FOR_EACH(i, contacts) fill_slots_of(i);
-    end_part();
+    begin_long_ranges();
     FOR_EACH(i, max(bodies, 1u)) order_slots_of(i);
+    order_long_slots();
 }

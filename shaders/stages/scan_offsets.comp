@@ -18,7 +18,7 @@ void main() {
         values[k] = first + k < items ? scan_read(first + k) : 0u;
         sum += values[k];
     }
-    uint running = READ_WORD(scan_sums, gl_WorkGroupID.x) + sum_before(sum);
+    uint running = READ_WORD(scan_sums, min(group(), scan_blocks_of(items, PARAMETERS) - 1u)) + sum_before(sum);
     for (uint k = 0u; k < SCAN_ITEMS; ++k) {
         if (first + k <= items) scan_write(first + k, running);
         running += values[k];

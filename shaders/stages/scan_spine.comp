@@ -10,7 +10,7 @@
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {
-    uint blocks = scan_work_for(scan_items(), PARAMETERS).x;
+    uint blocks = scan_blocks_of(scan_items(), PARAMETERS);
     uint total = 0u;
     for (uint first = 0u; first < blocks; first += gl_WorkGroupSize.x) {
         uint i = first + gl_LocalInvocationID.x;

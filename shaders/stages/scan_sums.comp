@@ -15,5 +15,6 @@ void main() {
     uint sum = 0u;
     for (uint i = first; i < min(first + SCAN_ITEMS, items); ++i) sum += scan_read(i);
     uint before = sum_before(sum);
-    if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) WORD(scan_sums, gl_WorkGroupID.x) = before + sum;
+    if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u && group() < scan_blocks_of(items, PARAMETERS))
+        WORD(scan_sums, group()) = before + sum;
 }

@@ -2,26 +2,50 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define SCREE_SORTS_TOGETHER
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/stage.glsl"
 
-#define SORT_GET(i) cell_entries.at[i].body
-#define SORT_SET(i, value) cell_entries.at[i].body = value
+#define SORT_KEY(i) uvec2(0u, cell_entries.at[i].body)
+#define SORT_SET(i, key) cell_entries.at[i].body = (key).y
 #include "shaders/stages/lib/sort.glsl"
 
-void main() {
-    uint i = thread();
+uvec2 entries_of(uint bucket) {
+    uint first = bucket == 0u ? 0u : READ_WORD(cell_ends, bucket - 1u);
+    return uvec2(first, READ_WORD(cell_ends, bucket) - first);
+}
+
+void copy_bounds(uint entry) {
+    uint body = cell_entries.at[entry].body;
+    Bounds around = READ(bounds, body);
+    cell_entries.at[entry].lower = around.lower;
+    cell_entries.at[entry].upper = around.upper;
+    cell_entries.at[entry].level = level_of_entry(around.level, READ(properties, body));
+}
+
+void sort_bucket(uint bucket) {
     // After an overflow that memory holds contacts for the repetition (SCREE_SHARES).
-    if (i >= buckets_in_all(PARAMETERS) || COUNTED.overflow != 0u) return;
-    uint first = i == 0u ? 0u : READ_WORD(cell_ends, i - 1u);
-    uint last = READ_WORD(cell_ends, i);
-    sort_range(first, last - first);
-    for (uint k = first; k < last; ++k) {
-        uint body = cell_entries.at[k].body;
-        Bounds around = READ(bounds, body);
-        cell_entries.at[k].lower = around.lower;
-        cell_entries.at[k].upper = around.upper;
-        cell_entries.at[k].level = level_of_entry(around.level, READ(properties, body));
+    if (bucket >= buckets_in_all(PARAMETERS) || COUNTED.overflow != 0u) return;
+    uvec2 own = entries_of(bucket);
+    if (own.y > SHORT_RANGE) {
+        note_long_range(bucket);
+        return;
+    }
+    sort_range(own.x, own.y);
+    for (uint k = own.x; k < own.x + own.y; ++k) copy_bounds(k);
+}
+
+void main() {
+    begin_long_ranges();
+    sort_bucket(thread());
+    uint noted = long_ranges_noted();
+    for (uint i = 0u; i < noted; ++i) {
+        uvec2 own = entries_of(long_range[i]);
+        sort_range_together(own.x, own.y);
+#define SCREE_COPY(t) \
+    if ((t) < own.y) copy_bounds(own.x + (t));
+        FOR_FOUR(t, own.y, SCREE_COPY)
+#undef SCREE_COPY
     }
 }

@@ -2,8 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define SCREE_SORTS_TOGETHER
 #include "shaders/stages/lib/slots.glsl"
 
 void main() {
+    begin_long_ranges();
     order_slots_of(thread());
+    order_long_slots();
 }

@@ -40,5 +40,7 @@ void main() {
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
-    if (depth > 1u) atomicMax(COUNTS.arguments[WORK_WAKE].x, COUNTS.arguments[WORK_CONTACTS].x);
+    if (depth <= 1u) return;
+    atomicMax(COUNTS.arguments[WORK_WAKE].x, COUNTS.arguments[WORK_CONTACTS].x);
+    atomicMax(COUNTS.arguments[WORK_WAKE].y, COUNTS.arguments[WORK_CONTACTS].y);
 }

@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "demos/scenes/demos.h"
 #include "host/canvas/canvas.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
@@ -54,6 +56,41 @@ TEST_CASE("a step that takes long is submitted in pieces, with the same bits, ov
     for (const auto& [stage, milliseconds] : there.stage_times()) {
         CAPTURE(stage);
         CHECK(milliseconds >= 0);
+    }
+}
+
+// A device may have room for 65,535 workgroups along an axis, which is few for a million bodies.
+TEST_CASE("dispatches of more workgroups than one axis has room for give the same bits in every stage", "[stages][vulkan]") {
+    const std::uint32_t most_groups = GENERATE(1, 3);
+    CAPTURE(most_groups);
+    const Watched watched({.most_groups = most_groups});
+    const auto check = [&](const Scene& scene, int steps, std::size_t least_in_rows) {
+        Settings small;
+        small.pairs_at_first = small.contacts_at_first = 8;  // lists grow
+        Lockstep lockstep(scene, small, watched.device, 1);
+        for (int step = 0; step < steps; ++step) {
+            lockstep.step();
+            const LockstepResult& result = lockstep.result();
+            INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                         << result.detail);
+            REQUIRE(result.equal);
+        }
+        std::vector<physics::Counts> counts(1);
+        lockstep.device().read(Table::counts, std::as_writable_bytes(std::span(counts)));
+        std::size_t in_rows = 0;
+        for (const physics::uvec4& work : counts[0].arguments) {
+            CHECK(work.x <= most_groups);
+            in_rows += work.y > 1;
+        }
+        CHECK(in_rows >= least_in_rows);
+        if (least_in_rows > 0) CHECK_FALSE(lockstep.device().is_fused());
+    };
+    check(tests::packed(1500), 12, 6);
+    for (const char* name : {"ragdolls", "cars", "shatter", "terrain"}) {
+        const demos::Demo* demo = demos::find_demo(name);
+        REQUIRE(demo != nullptr);
+        CAPTURE(name);
+        check(demos::build(*demo, {.bodies = demo->takes_bodies ? 800u : 0u, .seed = 1, .offset = 0}).scene, 4, 0);
     }
 }
 

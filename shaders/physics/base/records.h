@@ -517,7 +517,8 @@ struct Parameters {  // uniform over a step
     uint manifold_places_offset;
     uint contact_pairs_offset;
     uint contact_slots_offset;
-    uint pad0, pad1;
+    uint most_groups;  // workgroups of a dispatch along one axis
+    uint pad0;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

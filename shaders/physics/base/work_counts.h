@@ -10,14 +10,23 @@
 
 LAWS_BEGIN
 
-// Workgroups of a dispatch (x, y, z) and its threads.
-LAW uvec4 work_for(uint threads, Parameters parameters) {
-    return uvec4((threads + parameters.group_size - 1u) >> parameters.group_shift, 1u, 1u, threads);
+// Workgroups of a dispatch (x, y, z) and its threads. More groups than one axis has room for are laid out in rows along the
+// second, with fewer spare ones than rows (thread() and group() in shaders/stages/lib/stage.glsl number them).
+LAW uvec4 work_of_groups(uint groups, uint threads, Parameters parameters) {
+    uint along = groups, rows = 1u;
+    for (; along > parameters.most_groups; rows = rows << 1) along = (along + 1u) >> 1;
+    return uvec4(along, rows, 1u, threads);
 }
-// The same for a scan over `items` and the total behind them.
-LAW uvec4 scan_work_for(uint items, Parameters parameters) {
+LAW uvec4 work_for(uint threads, Parameters parameters) {
+    return work_of_groups((threads + parameters.group_size - 1u) >> parameters.group_shift, threads, parameters);
+}
+// Blocks of a scan over `items` and the total behind them, and its dispatch.
+LAW uint scan_blocks_of(uint items, Parameters parameters) {
     uint block = parameters.group_size << SCAN_SHIFT;
-    return uvec4((items + block) >> (parameters.group_shift + SCAN_SHIFT), 1u, 1u, items + 1u);
+    return (items + block) >> (parameters.group_shift + SCAN_SHIFT);
+}
+LAW uvec4 scan_work_for(uint items, Parameters parameters) {
+    return work_of_groups(scan_blocks_of(items, parameters), items + 1u, parameters);
 }
 // Buckets of the grid and of large bodies.
 LAW uint buckets_in_all(Parameters parameters) {

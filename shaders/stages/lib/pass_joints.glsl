@@ -667,9 +667,9 @@ void end_pass();
 void main() {
     if (COUNTS.overflow != 0u) return;
 #ifdef SCREE_SINGLY
-    uint first = thread(), stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    uint first = thread(), stride = groups() * gl_WorkGroupSize.x;
 #else
-    uint first = gl_WorkGroupID.x, stride = gl_NumWorkGroups.x;
+    uint first = group(), stride = groups();
 #endif
     for (uint index = first; index < PARAMETERS.joint_blocks; index += stride) {
         if (!is_ours(index) || !enter_block(index)) continue;

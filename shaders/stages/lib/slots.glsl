@@ -2,6 +2,7 @@
 #ifndef SCREE_STAGES_SLOTS_GLSL
 #define SCREE_STAGES_SLOTS_GLSL
 
+#include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/ids.glsl"
 
@@ -26,24 +27,18 @@ void fill_slots_of(uint contact) {
     if (moves_a) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_a), 1u)) = 2u * contact;
     if (moves_b) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_b), 1u)) = 2u * contact + 1u;
     if (!moves_a && !moves_b) return;
-    uint place = atomicAdd(COUNTS.solver_contacts, 1u);
-    WORD(contacts_to_solve, place) = contact;
-    uint group = place >> PARAMETERS.group_shift;
-    if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVER_CONTACTS].x, group + 1u);
+    WORD(contacts_to_solve, atomicAdd(COUNTS.solver_contacts, 1u)) = contact;
 }
 
 // Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact; joints
 // last.
-bool comes_before(uint side, uint other) {
-    if (!REORDERED) return side < other;
-    uint owner = NONE, other_owner = NONE;
-    if ((side & OF_JOINT) == 0u) owner = READ_WORD(contact_owners, side >> 1);
-    if ((other & OF_JOINT) == 0u) other_owner = READ_WORD(contact_owners, other >> 1);
-    return owner < other_owner || (owner == other_owner && side < other);
+uvec2 key_of_slot(uint slot) {
+    uint side = WORD(slot_sides, slot), owner = 0u;
+    if (REORDERED) owner = (side & OF_JOINT) != 0u ? NONE : READ_WORD(contact_owners, side >> 1);
+    return uvec2(owner, side);
 }
-#define SORT_GET(i) WORD(slot_sides, i)
-#define SORT_SET(i, value) WORD(slot_sides, i) = value
-#define SORT_BEFORE(x, y) comes_before(x, y)
+#define SORT_KEY(i) key_of_slot(i)
+#define SORT_SET(i, key) WORD(slot_sides, i) = (key).y
 #include "shaders/stages/lib/sort.glsl"
 
 // Tells a side its slot.
@@ -55,21 +50,39 @@ void assign_slot(uint slot) {
         WORD(contact_slots, side) = slot;
 }
 
-// Sorts a body's slots and writes where the contacts it owns begin.
+uvec2 slots_of(uint body) {
+    uint first = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u);
+    return uvec2(first, READ_WORD(slot_ends, body) - first);
+}
+
+// Writes where the contacts that a body owns begin, and sorts its slots, or notes them if they are many. All threads of a
+// workgroup then call order_long_slots().
 void order_slots_of(uint body) {
     if (COUNTED.overflow != 0u) return;
-    if (body == 0u) WORD(first_contacts, PARAMETERS.bodies) = COUNTED.contacts;  // also if there are no bodies
+    if (body == 0u) {  // also if there are no bodies
+        WORD(first_contacts, PARAMETERS.bodies) = COUNTED.contacts;
+        COUNTS.arguments[WORK_SOLVER_CONTACTS] = work_for(COUNTED.solver_contacts, PARAMETERS);
+    }
     if (body >= PARAMETERS.bodies) return;
     WORD(first_contacts, body) = READ_WORD(contact_starts, READ_WORD(pair_starts, body));
-    uint first = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u);
-    uint count = READ_WORD(slot_ends, body) - first;
-    sort_range(first, count);
-    // Four a round, for long lists on lavapipe (sort.glsl).
-    for (uint k = first; k < first + count; k += 4u) {
-        assign_slot(k);
-        if (k + 1u < first + count) assign_slot(k + 1u);
-        if (k + 2u < first + count) assign_slot(k + 2u);
-        if (k + 3u < first + count) assign_slot(k + 3u);
+    uvec2 own = slots_of(body);
+    if (own.y > SHORT_RANGE) {
+        note_long_range(body);
+        return;
+    }
+    sort_range(own.x, own.y);
+    for (uint k = own.x; k < own.x + own.y; ++k) assign_slot(k);
+}
+
+void order_long_slots() {
+    uint noted = long_ranges_noted();
+    for (uint i = 0u; i < noted; ++i) {
+        uvec2 own = slots_of(long_range[i]);
+        sort_range_together(own.x, own.y);
+#define SCREE_ASSIGN(t) \
+    if ((t) < own.y) assign_slot(own.x + (t));
+        FOR_FOUR(t, own.y, SCREE_ASSIGN)
+#undef SCREE_ASSIGN
     }
 }
 

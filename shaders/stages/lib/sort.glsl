@@ -1,61 +1,97 @@
-// Sorts a range by one thread: SORT_GET(i) and SORT_SET(i, value), defined by the stage, read and write a uint;
-// SORT_BEFORE(x, y) is the order, ascending by default.
+// Sorts ranges of a list, defined by the stage: SORT_KEY(i) is an item's key (major, minor), SORT_SET(i, key) writes it; no two
+// keys are equal.
 //
-// Insertion sort up to 32 items; heap sort beyond (a plate under a heap, a world in one cell), whose worst case is n
-// log n.
+// Short ranges are sorted by one thread each, by insertion. Longer ones (a plate under a heap, a world in one cell) are noted,
+// and sorted by all threads of the workgroup together, by a bitonic network (Batcher 1968) whose comparisons all put the smaller
+// key first, so that ranges need not have the length of a power of two. n items take n / 2 log^2 n comparisons, shared evenly;
+// within tiles they are in shared memory.
 #ifndef SCREE_STAGES_SORT_GLSL
 #define SCREE_STAGES_SORT_GLSL
 
-#ifndef SORT_BEFORE
-#define SORT_BEFORE(x, y) ((x) < (y))
-#endif
+#include "shaders/stages/lib/long_ranges.glsl"
 
-// One level of a sift-down: the larger child of `root` rises if `value` goes below it.
-#define SINK_A_LEVEL                                                                                           \
-    if (child < count) {                                                                                       \
-        if (child + 1u < count && SORT_BEFORE(SORT_GET(first + child), SORT_GET(first + child + 1u))) ++child; \
-        if (SORT_BEFORE(value, SORT_GET(first + child))) {                                                     \
-            SORT_SET(first + root, SORT_GET(first + child));                                                   \
-            root = child;                                                                                      \
-            child = 2u * root + 1u;                                                                            \
-        } else {                                                                                               \
-            child = count;                                                                                     \
-        }                                                                                                      \
-    }
+const uint TILE_SHIFT = 10u;
+const uint TILE = 1u << TILE_SHIFT;
 
-#define SINK_FOUR_LEVELS SINK_A_LEVEL SINK_A_LEVEL SINK_A_LEVEL SINK_A_LEVEL
+shared uvec2 tile[TILE];
 
-// Sixteen levels before a loop: lavapipe silently ends a shader's loops after 65,535 rounds in all, which with one level a
-// round a list of 4,500 items reached, and now one of 20,000 does.
-void sink(uint first, uint root, uint count) {
-    uint value = SORT_GET(first + root);
-    uint child = 2u * root + 1u;
-    SINK_FOUR_LEVELS
-    SINK_FOUR_LEVELS
-    SINK_FOUR_LEVELS
-    SINK_FOUR_LEVELS
-    while (child < count) {
-        SINK_A_LEVEL
-    }
-    SORT_SET(first + root, value);
+bool is_after(uvec2 x, uvec2 y) {
+    return x.x > y.x || (x.x == y.x && x.y > y.y);
 }
 
 void sort_range(uint first, uint count) {
-    if (count <= 32u) {
-        for (uint k = first + 1u; k < first + count; ++k) {
-            uint value = SORT_GET(k);
-            uint hole = k;
-            for (; hole > first && SORT_BEFORE(value, SORT_GET(hole - 1u)); --hole) SORT_SET(hole, SORT_GET(hole - 1u));
-            SORT_SET(hole, value);
-        }
-        return;
+    for (uint k = first + 1u; k < first + count; ++k) {
+        uvec2 key = SORT_KEY(k);
+        uint hole = k;
+        for (; hole > first && is_after(SORT_KEY(hole - 1u), key); --hole) SORT_SET(hole, SORT_KEY(hole - 1u));
+        SORT_SET(hole, key);
     }
-    for (uint root = count >> 1; root > 0u; --root) sink(first, root - 1u, count);
-    for (uint end = count - 1u; end > 0u; --end) {
-        uint largest = SORT_GET(first);
-        SORT_SET(first, SORT_GET(first + end));
-        SORT_SET(first + end, largest);
-        sink(first, 0u, end);
+}
+
+// The items that comparison `t` of a step compares: `reach` apart, or (flips) as far from the middle of 2 `reach` items.
+uvec2 items_of(uint t, uint reach, bool flips) {
+    uint offset = t & (reach - 1u), begin = (t - offset) << 1;
+    return uvec2(begin + offset, begin + (flips ? 2u * reach - 1u - offset : reach + offset));
+}
+uint comparisons(uint count, uint reach) {
+    return ((count + 2u * reach - 1u) & ~(2u * reach - 1u)) >> 1;  // of whole blocks
+}
+
+void compare_in_tile(uint t, uint count, uint reach, bool flips) {
+    uvec2 at = items_of(t, reach, flips);
+    if (at.y >= count) return;
+    uvec2 low = tile[at.x], high = tile[at.y];
+    if (!is_after(low, high)) return;
+    tile[at.x] = high;
+    tile[at.y] = low;
+}
+void compare_in_list(uint t, uint first, uint count, uint reach, bool flips) {
+    uvec2 at = items_of(t, reach, flips);
+    if (at.y >= count) return;
+    uvec2 low = SORT_KEY(first + at.x), high = SORT_KEY(first + at.y);
+    if (!is_after(low, high)) return;
+    SORT_SET(first + at.x, high);
+    SORT_SET(first + at.y, low);
+}
+
+void step_in_tile(uint count, uint reach, bool flips) {
+#define SCREE_COMPARE(t) compare_in_tile(t, count, reach, flips);
+    FOR_FOUR(t, comparisons(count, reach), SCREE_COMPARE)
+#undef SCREE_COMPARE
+    end_part();
+}
+void step_in_list(uint first, uint count, uint reach, bool flips) {
+#define SCREE_COMPARE(t) compare_in_list(t, first, count, reach, flips);
+    FOR_FOUR(t, comparisons(count, reach), SCREE_COMPARE)
+#undef SCREE_COMPARE
+    end_part();
+}
+
+// Sorts up to TILE items, or merges them if earlier steps reached farther.
+void sort_tile(uint first, uint count, bool merges) {
+#define SCREE_TAKE(t) \
+    if ((t) < count) tile[t] = SORT_KEY(first + (t));
+    FOR_FOUR(t, count, SCREE_TAKE)
+#undef SCREE_TAKE
+    end_part();
+    for (uint reach = 1u; reach < count && !merges; reach <<= 1) {
+        step_in_tile(count, reach, true);
+        for (uint nearer = reach >> 1; nearer > 0u; nearer >>= 1) step_in_tile(count, nearer, false);
+    }
+    for (uint nearer = merges ? TILE >> 1 : 0u; nearer > 0u; nearer >>= 1) step_in_tile(count, nearer, false);
+#define SCREE_PUT(t) \
+    if ((t) < count) SORT_SET(first + (t), tile[t]);
+    FOR_FOUR(t, count, SCREE_PUT)
+#undef SCREE_PUT
+    end_part();
+}
+
+void sort_range_together(uint first, uint count) {
+    for (uint begin = 0u; begin < count; begin += TILE) sort_tile(first + begin, min(TILE, count - begin), false);
+    for (uint reach = TILE; reach < count; reach <<= 1) {
+        step_in_list(first, count, reach, true);
+        for (uint nearer = reach >> 1; nearer >= TILE; nearer >>= 1) step_in_list(first, count, nearer, false);
+        for (uint begin = 0u; begin < count; begin += TILE) sort_tile(first + begin, min(TILE, count - begin), true);
     }
 }
 

@@ -14,8 +14,9 @@
 
 layout(local_size_x_id = 0) in;
 
-// A fused stage (SCREE_FUSED) is one workgroup whose threads read what others wrote before a barrier.
-#ifdef SCREE_FUSED
+// A fused stage (SCREE_FUSED) is one workgroup whose threads read what others wrote before a barrier; the threads of a
+// workgroup that sorts a list together (SCREE_SORTS_TOGETHER) do likewise.
+#if defined(SCREE_FUSED) || defined(SCREE_SORTS_TOGETHER)
 #define SCREE_SHARED coherent
 #else
 #define SCREE_SHARED
@@ -63,8 +64,15 @@ uint body_of(uint row) {
     return row < PARAMETERS.first_part ? row : READ(properties, row).owner;
 }
 
+// Workgroups are laid out along two axes (work_of_groups in shaders/physics/base/work_counts.h).
+uint group() {
+    return gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+}
+uint groups() {
+    return gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+}
 uint thread() {
-    return gl_GlobalInvocationID.x;
+    return gl_GlobalInvocationID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
 }
 
 #endif
