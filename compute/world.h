@@ -390,6 +390,12 @@ public:
 
     // The whole state as bytes (compute/checkpoint.h). Reads everything back.
     std::vector<std::byte> save() const;
+    // The same in pieces: calls take(offset, bytes) with all bytes in their order, at offsets from 0; then possibly once more with
+    // those at offset 0, which are to replace the first ones. On several ranks (compute/distributed) all call it, and take() is
+    // called on the first alone; of a world that is shared out no rank holds more than a piece beside its share. What take() throws
+    // goes to the caller.
+    using TakePiece = std::function<void(std::uint64_t, std::span<const std::byte>)>;
+    void save_in_pieces(const TakePiece& take) const;
     // Returns to a saved state: of this world, or of another one of the same scene, whatever its settings (which are
     // restored, too), backend and threads. Later steps give the same bits as those of the world that was saved; bodies
     // added since then are gone. Uploads everything. Buffers that a canvas draws from may be replaced. Throws

@@ -65,6 +65,7 @@ void World::Impl::share_out_when_due() {
         steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
         return state.allocate_all();
     }
+    (void)edits_now();  // for checkpoints: from the whole scene
     runner->share_out();
     const std::size_t bodies = scene.bodies.size();
     const auto ranks = static_cast<std::size_t>(runner->ranks()), rank = static_cast<std::size_t>(runner->rank());

@@ -220,6 +220,7 @@ struct World::Impl {
     void put_world(ByteWriter& out) const;
     static Own take_world(ByteReader& in);
     void put(ByteWriter& out, SteppedTables which) const;
+    void put_shares(const TakePiece& take) const;  // on all ranks
     // Throws CheckpointError, changing nothing. `slot`: where the runner keeps what is `on_device`.
     void take(std::span<const std::byte> bytes, SteppedTables which, std::size_t slot = 0);
 

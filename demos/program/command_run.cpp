@@ -398,6 +398,7 @@ int run(RunOptions options) {
     report.varied = options.copies.vary;
     if (options.resumed) {
         resume(world, *options.resumed, options.checkpoints.resume);
+        options.resumed->file = {};  // as large as the world's tables
         subject.promise.reset();  // it is judged over the whole run
         report.resumed_at = world.steps();
     }
@@ -493,7 +494,6 @@ void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) 
 // Every rank does the same, and the first alone writes and speaks.
 void make_silent(RunOptions& options) {
     options.quiet = true;
-    options.checkpoints.writes = false;
     for (std::string* file :
          {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.trace.file,
           &options.pictures.frames, &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
