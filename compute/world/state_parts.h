@@ -1,5 +1,5 @@
-// The tables of a world whose ranks have their shares alone (Runner::share_out) as the bytes of put_state(), of which no rank holds
-// more than a piece.
+// The tables of a world whose ranks have their shares alone (Runner::share_out) as the bytes of put_state(), of which no rank
+// holds more than a piece.
 //
 // Piece by piece, a range of rows of one table, ranks tell the first one the records that they own. Rows are those of the whole
 // world, in which a body's is its id.

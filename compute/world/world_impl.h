@@ -143,6 +143,7 @@ struct World::Impl {
     int steps_until_shared = 0;
     bool can_be_shared() const;
     void share_out_when_due();  // before a step
+    void share_out();
     void make_whole();
     std::size_t bodies() const { return shared ? shared->bodies : scene.bodies.size(); }
     std::vector<BodyRecord> records_at_home() const;

@@ -338,7 +338,8 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
         const demos::DemoScene more = demos::build(*demos::find_demo(name), {.bodies = static_cast<std::size_t>(bodies)});
         for (Body body : more.scene.bodies) {
             if (std::holds_alternative<Plane>(body.shape)) continue;
-            if (body.motion == Motion::dynamic && std::holds_alternative<Compound>(body.shape)) continue;  // would not be shared out
+            if (body.motion == Motion::dynamic && std::holds_alternative<Compound>(body.shape))
+                continue;  // would not be shared out
             body.position += vec3(name[0] == 'b' ? 60 : -60, 0, 0);
             built.scene.bodies.push_back(body);
         }

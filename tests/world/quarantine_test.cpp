@@ -44,7 +44,8 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps) {
     return hashes;
 }
 
-// A runner one of whose steps finds a body beyond all scenes, as a law that fails would leave it: no scene without joints is known to.
+// A runner one of whose steps finds a body beyond all scenes, as a law that fails would leave it: no scene without joints is
+// known to.
 template <class Base>
 class Poisoned : public Base {
 public:
@@ -122,7 +123,8 @@ TEST_CASE("a quarantine has the same bits on any number of lanes, threads and ra
     CHECK(rest.save() == world.save());
 }
 
-TEST_CASE("a body that goes into quarantine in a share of a world is told to all ranks, and the world goes on as on one", "[world]") {
+TEST_CASE("a body that goes into quarantine in a share of a world is told to all ranks, and the world goes on as on one",
+          "[world]") {
     Scene scene = tests::heap(200);
     constexpr int steps = 60;
     for (const float height : {std::numeric_limits<float>::infinity(), 2e15f})
