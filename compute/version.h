@@ -9,7 +9,7 @@
 
 #define SCREE_VERSION_MAJOR 0
 #define SCREE_VERSION_MINOR 4
-#define SCREE_VERSION_PATCH 0
+#define SCREE_VERSION_PATCH 1
 
 namespace scree {
 
