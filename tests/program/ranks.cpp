@@ -90,6 +90,10 @@ TEST_CASE("program: pictures of several processes are those of one, and checkpoi
             INFO(name);
             CHECK(equal_pictures);
         }
+        // With a caption, which names the ranks.
+        REQUIRE(run_scree(run + " --distributed --fps 5 --size 160x120 --frames '" + (place / "named").string() + "'", ranks(2))
+                    .status == 0);
+        std::filesystem::remove_all(place / "named");
         const std::string later = "run --steps 40 --backend cpu --threads 1 --quiet --report - --resume " + file;
         const std::string whole =
             hash_after(run_scree("run " + scene + " --backend cpu --threads 1 --quiet --steps 40 --report -").output);
