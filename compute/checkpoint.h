@@ -44,7 +44,8 @@ struct CheckpointFile {
     std::vector<std::byte> state;  // for World::restore
 };
 // Writes the world's state and a note: the file has its old or its new content, even if the process ends meanwhile.
-// Throws host::FileError (a std::runtime_error) that names the path and the reason.
+// On several ranks (compute/distributed) all call it, and the first one writes (World::save_in_pieces). Throws host::FileError (a
+// std::runtime_error) that names the path and the reason.
 void write_checkpoint(const std::filesystem::path& path, const World& world, std::string_view note = {});
 // Throws host::FileError, and CheckpointError naming the path.
 CheckpointFile read_checkpoint(const std::filesystem::path& path);

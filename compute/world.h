@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -384,12 +385,29 @@ public:
     // positions are lost. save() keeps all of these. Throws std::logic_error in a world of several copies.
     Scene snapshot() const;
     Statistics statistics() const;
+    // What a rank has of a world that is shared out (compute/distributed), for whoever makes do with that; none of any other
+    // world. Valid until the next call that is not const, and no read of the whole world in between.
+    struct Share {
+        const State& state;  // rows of the bodies that the rank moves, of ghosts, and of those that do not move
+        const std::map<std::size_t, Body>& still;  // the latter, by id: on every rank
+        const std::vector<Hull>& hulls;            // of all bodies, each once
+    };
+    std::optional<Share> share() const;
+    // On several ranks, collective: shares the world out now where that can be, and not only after some steps without a look at
+    // the whole. Else does nothing.
+    void share_out();
     const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date
     // XXH64 over position, orientation, velocity and angular velocity in id order; if bodies may break, also over which exist.
     std::uint64_t state_hash() const;
 
     // The whole state as bytes (compute/checkpoint.h). Reads everything back.
     std::vector<std::byte> save() const;
+    // The same in pieces: calls take(offset, bytes) with all bytes in their order, at offsets from 0; then possibly once more
+    // with those at offset 0, which are to replace the first ones. On several ranks (compute/distributed) all call it, and take()
+    // is called on the first alone; of a world that is shared out no rank holds more than a piece beside its share. What take()
+    // throws goes to the caller.
+    using TakePiece = std::function<void(std::uint64_t, std::span<const std::byte>)>;
+    void save_in_pieces(const TakePiece& take) const;
     // Returns to a saved state: of this world, or of another one of the same scene, whatever its settings (which are
     // restored, too), backend and threads. Later steps give the same bits as those of the world that was saved; bodies
     // added since then are gone. Uploads everything. Buffers that a canvas draws from may be replaced. Throws

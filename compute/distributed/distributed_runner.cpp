@@ -325,6 +325,7 @@ void DistributedRunner::forget_contacts() {
 }
 
 void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
+    if (state_->presence.empty()) return;  // all is here
     if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
     for (const TableRange& range : ranges)

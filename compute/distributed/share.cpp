@@ -206,9 +206,11 @@ void Share::end(State& state, Exchange& exchange) {
 void Share::take_in(State& state, std::span<const std::uint32_t> ids) {
     if (!state.is_share()) return;
     const auto is_missing = [&](std::uint32_t id) { return state.row_of(id) == physics::NONE; };
-    const auto missing = static_cast<std::uint32_t>(std::count_if(ids.begin(), ids.end(), is_missing));
-    if (missing > free_.size()) reclaim(state);
-    if (missing > free_.size()) grow(state, missing - static_cast<std::uint32_t>(free_.size()));
+    const auto missing = [&] { return static_cast<std::uint32_t>(std::count_if(ids.begin(), ids.end(), is_missing)); };
+    if (missing() > free_.size()) reclaim(state);
+    // Counted again: rows of these ids may have been among those.
+    if (const std::uint32_t needed = missing(); needed > free_.size())
+        grow(state, needed - static_cast<std::uint32_t>(free_.size()));
     for (const std::uint32_t id : ids) {
         if (!is_missing(id)) continue;
         const std::uint32_t row = free_.back();

@@ -3,9 +3,14 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "compute/world.h"
 #include "compute/world/byte_stream.h"
 #include "host/files/file.h"
+#include "host/files/growing_file.h"
 
 namespace scree {
 
@@ -14,14 +19,31 @@ constexpr std::string_view first_line = "scree checkpoint file 1\n";
 }
 
 void write_checkpoint(const std::filesystem::path& path, const World& world, std::string_view note) {
-    const std::vector<std::byte> state = world.save();
-    ByteWriter out;
-    out.reserve(first_line.size() + 8 + note.size() + state.size());
-    out.put_bytes(std::as_bytes(std::span(first_line)));
-    out.put_text(note);
-    out.put(std::uint64_t{XXH64(note.data(), note.size(), 0)});
-    out.put_bytes(state);
-    host::write_atomically(path, std::span<const std::byte>(out.bytes()));
+    ByteWriter front;
+    front.put_bytes(std::as_bytes(std::span(first_line)));
+    front.put_text(note);
+    front.put(std::uint64_t{XXH64(note.data(), note.size(), 0)});
+    std::error_code none;
+    if (std::filesystem::is_other(path, none)) {  // a pipe takes no piece again
+        bool writes = false;
+        world.save_in_pieces([&, start = front.bytes().size()](std::uint64_t at, std::span<const std::byte> bytes) {
+            writes = true;
+            std::vector<std::byte>& all = front.bytes();
+            all.resize(std::max(all.size(), start + at + bytes.size()));
+            std::copy(bytes.begin(), bytes.end(), all.begin() + static_cast<std::ptrdiff_t>(start + at));
+        });
+        if (writes) host::write_atomically(path, std::span<const std::byte>(front.bytes()));
+        return;
+    }
+    std::optional<host::GrowingFile> file;  // on the first rank
+    world.save_in_pieces([&](std::uint64_t at, std::span<const std::byte> bytes) {
+        if (!file) file.emplace(path).append(front.bytes());
+        if (const std::uint64_t place = front.bytes().size() + at; place == file->size())
+            file->append(bytes);
+        else
+            file->overwrite(place, bytes);
+    });
+    if (file) file->commit();
 }
 
 CheckpointFile read_checkpoint(const std::filesystem::path& path) {

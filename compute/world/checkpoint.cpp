@@ -2,6 +2,7 @@
 //
 // A head (magic, format, tables, scene, steps, length, hash), then the edits of the scene since the world was made, the
 // world's own values, and the tables of the state.
+#define XXH_STATIC_LINKING_ONLY
 #include "compute/checkpoint.h"
 
 #include <xxhash.h>
@@ -19,6 +20,7 @@
 #include "compute/statistics.h"
 #include "compute/world/checkpoint_seal.h"
 #include "compute/world/scene_bytes.h"
+#include "compute/world/state_parts.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/extra/tyre.h"
 
@@ -38,8 +40,23 @@ struct Head {
 constexpr char magic[8] = {'s', 'c', 'r', 'e', 'e', ' ', 'c', '\n'};
 static_assert(sizeof(Head) == 56);
 
+std::uint64_t seed_of(const Head& head) {
+    return XXH64(&head, offsetof(Head, hash), 0);
+}
 std::uint64_t hash_of(const Head& head, std::span<const std::byte> rest) {
-    return XXH64(rest.data(), rest.size(), XXH64(&head, offsetof(Head, hash), 0));
+    return XXH64(rest.data(), rest.size(), seed_of(head));
+}
+
+// Without length and hash.
+Head head_of(std::uint64_t scene, std::uint64_t steps) {
+    Head head{};
+    std::memcpy(head.magic, magic, sizeof magic);
+    head.format = format;
+    head.settings_bytes = sizeof(Settings);
+    head.tables = layout_of_tables();
+    head.scene = scene;
+    head.steps = steps;
+    return head;
 }
 
 [[noreturn]] void refuse(const std::string& reason) {
@@ -391,18 +408,45 @@ std::vector<std::byte> World::save() const {
     const Impl& in = *interior_;
     in.runner->download(ranges_to_save(in.state));
     ByteWriter out;
-    Head head{};
-    out.put(head);
+    out.put(head_of(in.fingerprint, in.steps));
     in.put(out, SteppedTables::all);
-    std::memcpy(head.magic, magic, sizeof magic);
-    head.format = format;
-    head.settings_bytes = sizeof(Settings);
-    head.tables = layout_of_tables();
-    head.scene = in.fingerprint;
-    head.steps = in.steps;
-    std::memcpy(out.bytes().data(), &head, sizeof head);
     seal_checkpoint(out.bytes());
     return std::move(out.bytes());
+}
+
+void World::save_in_pieces(const TakePiece& take) const {
+    const Impl& in = interior_.as_it_is();
+    if (in.shared) return in.put_shares(take);
+    const std::vector<std::byte> all = save();
+    if (in.runner->rank() == 0) take(0, all);
+}
+
+void World::Impl::put_shares(const TakePiece& take) const {
+    const bool first = runner->rank() == 0;
+    const StateParts parts(state, *runner);
+    ByteWriter front, back;
+    front.put_list(std::span<const std::byte>(edits));  // since the shares were made
+    put_world(front);
+    put_numbers(front, state, parts.parameters(), parts.counts());
+    put_shapes(back, state, shapes_at_start);
+    Head head = head_of(fingerprint, steps);
+    head.bytes = front.bytes().size() + parts.bytes() + back.bytes().size();
+    std::uint64_t at = 0;
+    XXH64_state_t hash;
+    XXH64_reset(&hash, seed_of(head));
+    const auto put_piece = [&](std::span<const std::byte> bytes) {
+        if (!first || bytes.empty()) return;
+        if (at > 0) XXH64_update(&hash, bytes.data(), bytes.size());
+        take(at, bytes);
+        at += bytes.size();
+    };
+    put_piece(std::as_bytes(std::span(&head, 1)));
+    put_piece(front.bytes());
+    parts.put_tables(put_piece);
+    put_piece(back.bytes());
+    if (!first) return;
+    head.hash = XXH64_digest(&hash);
+    take(0, std::as_bytes(std::span(&head, 1)));
 }
 
 void seal_checkpoint(std::span<std::byte> state) {

@@ -192,10 +192,11 @@ void World::reset_copy(std::size_t copy) {
 
 // ---- asking
 std::size_t World::copies() const {
-    return interior_->copies();
+    return interior_.as_it_is().copies();
 }
 std::size_t World::bodies_of_copy() const {
-    return interior_->state.has_copies() ? interior_->state.fixed().bodies_of_copy : interior_->scene.bodies.size();
+    const Impl& in = interior_.as_it_is();
+    return in.state.has_copies() ? in.state.fixed().bodies_of_copy : in.bodies();
 }
 std::size_t World::body_of(std::size_t copy, std::size_t body) const {
     interior_->require_copy(copy);

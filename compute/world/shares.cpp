@@ -48,6 +48,17 @@ const HullForm* form_of(const Body& body) {
 
 }  // namespace
 
+void World::share_out() {
+    Impl& in = interior_.as_it_is();
+    if (in.runner->ranks() > 1 && !in.shared && in.can_be_shared()) in.share_out();
+}
+
+std::optional<World::Share> World::share() const {
+    const Impl& in = interior_.as_it_is();
+    if (!in.shared) return std::nullopt;
+    return Share{in.state, in.shared->still, in.shared->hulls};
+}
+
 bool World::Impl::can_be_shared() const {
     const auto is_dropped = [](const auto& grip) { return !grip.has_value(); };
     const auto is_plain = [](const Body& body) { return body.piece_of == no_body; };
@@ -65,6 +76,11 @@ void World::Impl::share_out_when_due() {
         steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
         return state.allocate_all();
     }
+    share_out();
+}
+
+void World::Impl::share_out() {
+    (void)edits_now();  // for checkpoints: from the whole scene
     runner->share_out();
     const std::size_t bodies = scene.bodies.size();
     const auto ranks = static_cast<std::size_t>(runner->ranks()), rank = static_cast<std::size_t>(runner->rank());

@@ -30,16 +30,6 @@ std::span<const std::byte> records_of(const State& state, Table table, std::size
     return state.raw(table).first(count * record_bytes(table));
 }
 
-// With their lengths, in the order of the bytes.
-std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, SteppedTables which) {
-    if (which == SteppedTables::on_device) return {{Table::properties, rows}};
-    std::vector<std::pair<Table, std::size_t>> all;
-    for (const Table table : row_tables) all.emplace_back(table, rows);
-    all.emplace_back(Table::first_contacts, rows + 1);
-    for (const Table table : contact_tables) all.emplace_back(table, contacts);
-    return all;
-}
-
 template <class Record>
 std::uint64_t hash_of(const std::vector<Record>& records, std::uint64_t seed) {
     return XXH64(records.data(), records.size() * sizeof(Record), seed);
@@ -89,6 +79,15 @@ std::vector<physics::BlockBody> portable(std::vector<physics::BlockBody> members
 
 }  // namespace
 
+std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, SteppedTables which) {
+    if (which == SteppedTables::on_device) return {{Table::properties, rows}};
+    std::vector<std::pair<Table, std::size_t>> all;
+    for (const Table table : row_tables) all.emplace_back(table, rows);
+    all.emplace_back(Table::first_contacts, rows + 1);
+    for (const Table table : contact_tables) all.emplace_back(table, contacts);
+    return all;
+}
+
 StartLengths StartLengths::of(const State& s) {
     return {s.hulls.size(), s.pieces.size(), s.tyres.size()};
 }
@@ -117,19 +116,16 @@ TableRanges ranges_to_save(const State& state) {
     return ranges;
 }
 
-void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
-    const std::size_t rows = state.fixed().bodies, contacts = state.counted().contacts;
-    out.put(portable(state.fixed()));
-    out.put(portable(state.counted()));
+void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts) {
+    out.put(portable(parameters));
+    out.put(portable(counts));
     out.put(static_cast<std::int32_t>(state.substeps));
     out.put(state.body_count);
-    out.put_list(std::span(state.rows()));
+    out.put_list(std::span(state.is_share() ? std::vector<std::uint32_t>() : state.rows()));
     out.put_list(std::span(state.joint_records));
-    const auto stepped = stepped_tables(rows, contacts, which);
-    std::size_t bytes = 0;
-    for (const auto& [table, count] : stepped) bytes += count * record_bytes(table);
-    out.reserve(bytes + bytes / 16);
-    for (const auto& [table, count] : stepped) out.put_bytes(records_of(state, table, count));
+}
+
+void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_start) {
     out.put_list(std::span(state.joints));
     out.put_list(std::span<const physics::JointBlock>(portable(state.joint_blocks)));
     out.put_list(std::span<const physics::BlockBody>(portable(state.block_bodies)));
@@ -145,6 +141,16 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(std::span(state.immersions));
     out.put_list(std::span(state.births));
     out.put_list(std::span(state.gravities));
+}
+
+void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
+    put_numbers(out, state, state.fixed(), state.counted());
+    const auto stepped = stepped_tables(state.fixed().bodies, state.counted().contacts, which);
+    std::size_t bytes = 0;
+    for (const auto& [table, count] : stepped) bytes += count * record_bytes(table);
+    out.reserve(bytes + bytes / 16);
+    for (const auto& [table, count] : stepped) out.put_bytes(records_of(state, table, count));
+    put_shapes(out, state, at_start);
 }
 
 StateBytes::StateBytes(ByteReader& in, const State& own, const StartLengths& at_start, SteppedTables which)

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "compute/step/state.h"
 #include "compute/step/table_ranges.h"
@@ -33,6 +35,11 @@ enum class SteppedTables {
     on_device,  // only the properties: the runner keeps the others itself
 };
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
+// Its three parts: numbers of the whole state, the tables that steps change with their lengths, and those of shapes and joints.
+void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts);
+std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts,
+                                                          SteppedTables which = SteppedTables::all);
+void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_start);
 
 // Brings a state, made from the scene with which the saved world was, to what a checkpoint says. Commands that were to come with
 // the next step, and grips, are left out. Throws CheckpointError for damaged bytes and those of another scene.

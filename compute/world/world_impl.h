@@ -144,6 +144,7 @@ struct World::Impl {
     int steps_until_shared = 0;
     bool can_be_shared() const;
     void share_out_when_due();  // before a step
+    void share_out();
     void make_whole();
     std::size_t bodies() const { return shared ? shared->bodies : scene.bodies.size(); }
     std::vector<BodyRecord> records_at_home() const;
@@ -221,6 +222,7 @@ struct World::Impl {
     void put_world(ByteWriter& out) const;
     static Own take_world(ByteReader& in);
     void put(ByteWriter& out, SteppedTables which) const;
+    void put_shares(const TakePiece& take) const;  // on all ranks
     // Throws CheckpointError, changing nothing. `slot`: where the runner keeps what is `on_device`.
     void take(std::span<const std::byte> bytes, SteppedTables which, std::size_t slot = 0);
 

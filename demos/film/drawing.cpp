@@ -11,6 +11,7 @@
 #include "demos/film/solid_meshes.h"
 #include "demos/program/exit_status.h"
 #include "host/device_error.h"
+#include "shaders/physics/collide/compound.h"
 
 namespace scree::demos {
 
@@ -30,6 +31,17 @@ public:
             made.meshes.push_back(patch_mesh(form, k, last));
             add(first_row + static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(made.meshes.size() - 1));
         }
+    }
+
+    // Of a body, also of a removed one: shaders skip its row.
+    void add(const Shape& shape, std::uint32_t row, std::uint32_t first_part) {
+        if (const std::optional<SimpleShape> simple = simple_shape(shape)) add(row, *simple);
+        if (const auto* compound = std::get_if<Compound>(&shape))
+            for (const Part& one : compound->parts) {
+                if (one.role != Role::sensor) add(first_part, one.shape);
+                ++first_part;
+            }
+        if (const MeshForm* form = mesh_form_of(shape)) add(first_part, *form);
     }
 
     host::ShapeInstances made;
@@ -63,6 +75,56 @@ private:
 
 }  // namespace
 
+// The shape of a body that moves in a share, of which the scene may be elsewhere. Hulls by their place in the table of hulls.
+SimpleShape shape_in(const physics::BodyProperties& body, const std::map<physics::uint, const Hull*>& hulls) {
+    const vec3 size = body.size;
+    switch (body.shape) {
+        case physics::SHAPE_CAPSULE:
+            return Capsule{size.x, size.y};
+        case physics::SHAPE_BOX:
+            return Box{size};
+        case physics::SHAPE_CYLINDER:
+            return Cylinder{size.x, size.y};
+        case physics::SHAPE_CONE:
+            return Cone{size.x, size.y};
+        case physics::SHAPE_ELLIPSOID:
+            return Ellipsoid{size};
+        case physics::SHAPE_HULL:
+            return *hulls.at(body.shape_data);
+        default:
+            return Sphere{size.x};
+    }
+}
+
+host::ShapeInstances instances_of(const World::Share& share, bool with_still) {
+    const State& state = share.state;
+    std::map<physics::uint, const Hull*> hulls;
+    for (const Hull& hull : share.hulls)
+        if (const auto place = state.shape_places.hulls.find(hull.form); place != state.shape_places.hulls.end())
+            hulls[place->second] = &hull;
+    Instances instances;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
+        if (state.is_owned(row) && (state.properties[row].flags & physics::ROW_SENSOR) == 0)
+            instances.add(row, shape_in(state.properties[row], hulls));
+    if (!with_still) return std::move(instances.made);
+    std::map<std::uint32_t, std::uint32_t> first_parts;  // by row of the body
+    for (std::uint32_t row = state.fixed().bodies; row-- > state.fixed().first_part;)
+        if (physics::is_part(state.properties[row])) first_parts[state.properties[row].owner] = row;
+    for (const auto& [id, body] : share.still) {
+        if (body.role == Role::sensor) continue;
+        const std::uint32_t row = state.row_of(id);
+        const auto part = first_parts.find(row);
+        instances.add(body.shape, row, part == first_parts.end() ? 0 : part->second);
+    }
+    // The light maps, which planes need too, are placed where there are bodies: if need be, an empty row.
+    const host::ShapeInstances& made = instances.made;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (!(made.spheres.empty() && made.capsules.empty() && made.boxes.empty() && made.solids.empty())) break;
+        if (physics::is_absent(state.properties[row].motion)) instances.made.spheres.push_back(row);
+    }
+    return std::move(instances.made);
+}
+
 host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
     const Scene& scene = world.scene();
     const State& state = world.state();
@@ -73,15 +135,7 @@ host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) 
         if (scene.bodies[i].role == Role::sensor) continue;
         const std::size_t copy = i / world.bodies_of_copy();
         if (!shown.shows(copy) || (copy > shown.first && std::holds_alternative<Plane>(shape))) continue;
-        auto part = static_cast<std::uint32_t>(first_parts[i]);
-        if (const std::optional<SimpleShape> simple = simple_shape(shape))
-            instances.add(state.row_of(i), *simple);  // also of a removed body: shaders skip its row
-        if (const auto* compound = std::get_if<Compound>(&shape))
-            for (const Part& one : compound->parts) {
-                if (one.role != Role::sensor) instances.add(part, one.shape);
-                ++part;
-            }
-        if (const MeshForm* form = mesh_form_of(shape)) instances.add(part, *form);
+        instances.add(shape, state.row_of(i), static_cast<std::uint32_t>(first_parts[i]));
     }
     return std::move(instances.made);
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "compute/step/state.h"
 #include "demos/film/camera.h"
@@ -13,6 +15,7 @@
 #include "demos/film/channel_writer.h"
 #include "demos/film/drawing.h"
 #include "demos/film/motion_blur.h"
+#include "demos/film/rank_parts.h"
 #include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
@@ -75,6 +78,17 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     return canvas;
 }
 
+bool can_be_parts(const PictureOptions& options, World& world) {
+    return world.runner().ranks() > 1 && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty();
+}
+
+// All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.
+host::CanvasOptions canvas_for(const PictureOptions& options, const LoadedScene& subject, World& world) {
+    host::CanvasOptions canvas = canvas_of(options, style_of(options, subject.style), world);
+    if (can_be_parts(options, world)) canvas.samples = 1;
+    return canvas;
+}
+
 constexpr int CAPTION_LINES = 3;
 
 // A fitted scene is above legend and caption.
@@ -107,6 +121,9 @@ struct Pictures::Impl {
     int begun = 0;                    // pictures
     int before = 0;                   // of those, due before a resumed run
     bool drawing_one = false;         // the last one is being drawn, concurrently with later steps
+    std::function<void()> make_drawing{};
+    std::unique_ptr<PartDrawing> part{};  // on several ranks
+    bool is_first() const { return world.runner().rank() == 0; }
 
     host::Image finished() {
         host::Image drawn = drawing->canvas().finish();
@@ -137,11 +154,25 @@ struct Pictures::Impl {
         timed(times.encode_wait, [&] { writer->add(mean.image()); });
     }
 
-    std::string caption() const {
+    // A part of a picture, on every rank.
+    void draw_part() {
+        take();
+        drawing.reset();  // of the whole world
+        const PartDrawing::Moment moment = part->look(camera.followed());
+        const host::Camera view = camera.at(world.time(), moment.followed);
+        if (!cameras.empty()) track.add(world.time(), view);
+        host::Image drawn = part->draw(view, scale, is_first() ? caption(moment.contacts) : "", low, high);
+        if (!is_first()) return;
+        if (factor > 1) drawn = host::reduced(drawn, factor);
+        timed(times.encode_wait, [&] { writer->add(std::move(drawn)); });
+    }
+
+    std::string caption() const { return caption(drawing->contacts()); }
+    std::string caption(std::uint32_t contacts) const {
         if (!captioned) return "";
         const std::string copies = world.copies() > 1 ? fmt::format("{} copies, ", world.copies()) : "";
         return fmt::format("{} · {:.2f} s\n{}{}, {}\n{}", name, world.time(), copies,
-                           counted(world.bodies_there(), "body", "bodies"), counted(drawing->contacts(), "contact", "contacts"),
+                           counted(world.bodies_there(), "body", "bodies"), counted(contacts, "contact", "contacts"),
                            world.runner().device());
     }
 };
@@ -173,13 +204,18 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.width = options.width;
     writer.height = options.height;
     writer.bits = options.bits;
-    in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world), shown,
-                       options.shutter > 0);
+    const host::CanvasOptions canvas = canvas_for(options, subject, world);
+    if (can_be_parts(options, world)) in.part = PartDrawing::make(world, canvas);
+    in.make_drawing = [&in, canvas, machine, shown, word = in.part ? "gl" : options.canvas, from_host = options.shutter > 0] {
+        in.drawing.emplace(word, machine, in.world, canvas, shown, from_host);
+    };
+    if (in.is_first()) in.writer = std::make_unique<host::FrameWriter>(writer);
+    if (in.is_first() && !in.part) in.make_drawing();
+    if (!in.is_first()) in.cameras.clear();
     in.shutter = static_cast<double>(options.shutter) / in.fps;
     in.blurred = options.shutter_samples;
     if (options.shutter > 0) in.past.emplace(in.shutter);
-    if (!options.channels.empty()) in.channels.emplace(options, world);
+    if (!options.channels.empty() && in.is_first()) in.channels.emplace(options, world);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
         in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
@@ -190,12 +226,28 @@ Pictures::~Pictures() = default;
 
 void Pictures::after_step() {
     Impl& in = *interior_;
-    if (in.past) in.past->keep(in.world);
+    const bool shares = in.world.runner().ranks() > 1;
+    if (in.past && shares) (void)in.world.state();
+    if (in.past && in.is_first()) in.past->keep(in.world);
     // Picture n, due at n / fps, is drawn after the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.begun / in.fps) return;
+    if (in.part) in.world.share_out();
+    if (in.part && in.world.share()) {
+        timed(in.times.draw, [&] { in.draw_part(); });
+        ++in.begun;
+        return;
+    }
+    if (shares) (void)in.world.state();  // on all ranks, for the first
+    if (!in.is_first()) {
+        const std::optional<std::size_t> body = in.camera.followed();
+        (void)in.camera.at(in.world.time(), body ? in.world.state().poses[in.world.row_of(*body)].position : vec3(0));
+        ++in.begun;
+        return;
+    }
     in.take();
     timed(in.times.draw, [&] {
+        if (!in.drawing) in.make_drawing();
         in.drawing->update();
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
@@ -211,6 +263,7 @@ void Pictures::after_step() {
 }
 
 void Pictures::finish() {
+    if (!interior_->is_first()) return;
     interior_->take();
     timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
     if (!interior_->cameras.empty()) host::write_atomically(interior_->cameras, interior_->track.json());
@@ -225,7 +278,8 @@ int Pictures::count() const {
 }
 
 std::string Pictures::canvas() const {
-    return interior_->drawing->canvas().name();
+    if (interior_->part) return interior_->part->canvas();
+    return interior_->drawing ? interior_->drawing->canvas().name() : "";
 }
 
 }  // namespace scree::demos

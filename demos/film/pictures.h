@@ -23,7 +23,9 @@ struct PictureTimes {
 
 class Pictures {
 public:
-    // Throws if the folder, the video or the device is not usable.
+    // Throws if the folder, the video or the device is not usable. On several ranks (compute/distributed) all have one with the
+    // same options and call the same functions; the first writes. While the world is shared out, each rank draws its own bodies
+    // where that can be (PartDrawing), and otherwise the first rank draws the whole world.
     Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world,
              const CopiesShown& shown = {});
     ~Pictures();

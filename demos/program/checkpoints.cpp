@@ -75,7 +75,7 @@ void resume(World& world, const ResumedRun& run, const std::string& path) {
 }
 
 Checkpoints::Checkpoints(const CheckpointOptions& options, const SceneOptions& scene, int steps, const std::string& input)
-    : file_(options.file), writes_(options.writes) {
+    : file_(options.file) {
     const double between = options.every.value_or(usual_interval) * static_cast<double>(*scene.rate);
     steps_between_ = static_cast<std::uint64_t>(std::max(1L, std::lround(between)));
     const nlohmann::ordered_json note = {
@@ -94,11 +94,7 @@ void Checkpoints::after_step(const World& world) {
 }
 
 void Checkpoints::write(const World& world) const {
-    if (file_.empty()) return;
-    if (writes_)
-        write_checkpoint(file_, world, note_);
-    else
-        (void)world.save();
+    if (!file_.empty()) write_checkpoint(file_, world, note_);
 }
 
 }  // namespace scree::demos

@@ -15,7 +15,6 @@ struct CheckpointOptions {
     std::optional<double> every;       // s of simulated time
     std::string resume;                // file to go on from; may be empty
     std::optional<std::string> input;  // of a resumed run: its recorded input
-    bool writes = true;                // false: takes part in gathering the state alone (ranks.h)
 };
 void add_options(CLI::App& command, CheckpointOptions& options);
 // Throws UsageError for an option that means nothing, and for a file that cannot be written.
@@ -33,7 +32,7 @@ ResumedRun load_resumed(const std::string& path);
 // Restores the world. Throws UsageError naming the file and the reason.
 void resume(World& world, const ResumedRun& run, const std::string& path);
 
-// Writes the file when it is due.
+// Writes the file when it is due. On several ranks all have one, and the first writes.
 class Checkpoints {
 public:
     // `steps`: of the whole run; `input`: its recorded input.
@@ -45,7 +44,6 @@ public:
 
 private:
     std::string file_, note_;
-    bool writes_ = true;
     std::uint64_t steps_between_ = 0;
 };
 

@@ -57,7 +57,7 @@ struct RunOptions {
     bool distributed = false;
     std::shared_ptr<Exchange> exchange = nullptr;  // with the other ranks; null: the run is not distributed
     // What all ranks do alike, though the first alone has outputs: see silent().
-    bool advises = false, is_watched = false, saves = false;
+    bool advises = false, draws = false, is_watched = false, saves = false;
     bool speaks() const { return !exchange || exchange->rank() == 0; }
 };
 
@@ -358,7 +358,7 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 World world_of(LoadedScene& subject, const RunOptions& run, const Settings& settings, std::unique_ptr<Runner> runner,
                const VaryCopy& vary) {
     const std::size_t copies = run.copies.copies;
-    if (copies == 0 && run.pictures.wanted()) return {subject.scene, settings, std::move(runner)};
+    if (copies == 0 && run.draws) return {subject.scene, settings, std::move(runner)};
     if (copies == 0) return {std::move(subject.scene), settings, std::move(runner)};
     try {
         return {subject.scene, settings, std::move(runner), copies, vary};
@@ -398,14 +398,16 @@ int run(RunOptions options) {
     report.varied = options.copies.vary;
     if (options.resumed) {
         resume(world, *options.resumed, options.checkpoints.resume);
-        subject.promise.reset();  // it is judged over the whole run
+        options.resumed->file = {};  // as large as the world's tables
+        subject.promise.reset();     // it is judged over the whole run
         report.resumed_at = world.steps();
     }
     std::optional<Pictures> pictures;
     preparing.emplace(options.timeline.get(), "make the canvas");
-    if (options.pictures.wanted()) {
+    if (options.draws) {
         const CopiesShown shown = shown_of(options.copies, subject);
         pictures.emplace(options.pictures, machine, subject, world, shown);
+        if (options.exchange && !options.saves) subject.scene = {};  // as large as its tables
     }
     if (pictures) report.canvas = pictures->canvas();
     report.driver = machine.driver();
@@ -493,7 +495,6 @@ void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) 
 // Every rank does the same, and the first alone writes and speaks.
 void make_silent(RunOptions& options) {
     options.quiet = true;
-    options.checkpoints.writes = false;
     for (std::string* file :
          {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.trace.file,
           &options.pictures.frames, &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
@@ -516,6 +517,7 @@ int run(const CLI::App& command, RunOptions options) {
             "run: name a demo (scree list) or a scene file, or give a recording with --input or a checkpoint with --resume");
     }
     options.advises = !options.quiet || !options.report.empty();
+    options.draws = options.pictures.wanted();
     if (!options.distributed) return run(options);
     require_sense_on_ranks(command, options);
     int neighbours = 1;
@@ -523,7 +525,7 @@ int run(const CLI::App& command, RunOptions options) {
     if (options.machine.threads == 0)
         options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours);
     options.machine.backend = "cpu";
-    options.is_watched = options.pictures.wanted() || !options.trajectory.file.empty() || !options.animation.file.empty();
+    options.is_watched = !options.trajectory.file.empty() || !options.animation.file.empty();
     options.saves = !options.save.empty();
     if (!options.speaks()) make_silent(options);
     const std::shared_ptr<Exchange> exchange = options.exchange;  // until the world is gone

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,18 @@ struct CanvasOptions {
     vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // need not be normalised
 };
 
+// Joins what several processes draw of one picture, each its own bodies. All of them call the same functions in the same order.
+class PictureParts {
+public:
+    virtual ~PictureParts() = default;
+    virtual bool is_first() const = 0;  // whether this process gets the pictures
+    // Every number, of depths and bounds, becomes the least over all processes.
+    virtual void unite(std::span<float> numbers) = 0;
+    // On the first process every colour becomes that of the process with the greatest depth there; of equal depths the first
+    // one's.
+    virtual void compose(std::span<std::uint32_t> colors, std::span<const float> depths) = 0;
+};
+
 class Canvas {
 public:
     virtual ~Canvas() = default;
@@ -138,6 +151,18 @@ public:
     Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
         begin(camera, scale, caption, scene_low, scene_high);
         return finish();
+    }
+
+    // Whether draw_part() and set_bodies() work: without overlays, with one sample a pixel and 8 bits a channel.
+    virtual bool draws_parts() const { return false; }
+    // Other bodies, before set_tables(). Throws std::logic_error without draws_parts().
+    virtual void set_bodies(const ShapeInstances&) { throw std::logic_error("canvas: its bodies are fixed"); }
+    // Draws this process's bodies of a picture, whose other arguments are the same on all of them, with the shadows of all.
+    // Returns the whole on the first process, an empty image on the others. The pixels are those of one canvas with all bodies,
+    // but where bodies of several processes have one depth. Throws std::logic_error without draws_parts().
+    virtual Image draw_part(const Camera&, const ColorScale&, const std::string& /* caption */, vec3 /* low */, vec3 /* high */,
+                            PictureParts&) {
+        throw std::logic_error("canvas: it draws no parts of pictures");
     }
 };
 

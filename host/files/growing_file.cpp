@@ -49,6 +49,16 @@ public:
         write(buffer_);
         buffer_.clear();
     }
+    void overwrite(std::uint64_t at, std::span<const std::byte> bytes) {
+        flush();
+        while (!bytes.empty()) {
+            const ssize_t count = ::pwrite(number_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+            if (count < 0 && errno == EINTR) continue;
+            if (count < 0) refuse_path("write", path_, errno);
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+            at += static_cast<std::uint64_t>(count);
+        }
+    }
     void close() {
         flush();
         const int number = std::exchange(number_, -1);
@@ -93,6 +103,10 @@ GrowingFile::~GrowingFile() {
 
 void GrowingFile::append(std::string_view bytes) {
     interior_->file->append(bytes);
+}
+
+void GrowingFile::overwrite(std::uint64_t at, std::span<const std::byte> bytes) {
+    interior_->file->overwrite(at, bytes);
 }
 
 std::uint64_t GrowingFile::size() const {

@@ -22,6 +22,8 @@ public:
     void append(std::span<const std::byte> bytes) {
         append(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     }
+    // Replaces bytes that were appended before, at a distance from the first. Not in a pipe.
+    void overwrite(std::uint64_t at, std::span<const std::byte> bytes);
     std::uint64_t size() const;  // bytes so far
     void commit();               // gives it its name, in place of an older file
 

@@ -65,6 +65,42 @@ TEST_CASE("program: a checkpoint of two processes is resumed by one and by three
     REQUIRE(hash_after(run_scree(later + " --distributed", ranks(3)).output) == whole);
 }
 
+// A world that is shared out, and one with joints, which is not.
+TEST_CASE("program: pictures of several processes are those of one, and checkpoints beside them go on anywhere",
+          "[program][ranks]") {
+    if (cannot_run()) return;
+    const Place place;
+    const std::string file = "'" + (place / "run.checkpoint").string() + "'";
+    for (const std::string scene : {"mix --bodies 60", "ragdolls --bodies 20"}) {
+        const auto frames = [&](const std::string& folder) {
+            return " --frames '" + (place / folder).string() + "' --fps 20 --size 160x120 --no-caption";
+        };
+        for (const std::string folder : {"one", "three"}) std::filesystem::remove_all(place / folder);
+        const std::string run = "run " + scene + " --backend cpu --threads 1 --quiet --steps 24 --canvas gl";
+        REQUIRE(run_scree(run + frames("one")).status == 0);
+        const Outcome outcome =
+            run_scree(run + frames("three") + " --distributed --checkpoint " + file + " --every 0.2", ranks(3));
+        INFO(scene << "\n" << outcome.errors);
+        REQUIRE(outcome.status == 0);
+        for (int k = 0; k <= 8; ++k) {
+            const std::string name = "frame_00000" + std::to_string(k) + ".png";
+            const std::string expected = place.read("one/" + name);
+            REQUIRE(expected.size() > 1000);
+            const bool equal_pictures = place.read("three/" + name) == expected;
+            INFO(name);
+            CHECK(equal_pictures);
+        }
+        // With a caption, which names the ranks.
+        REQUIRE(run_scree(run + " --distributed --fps 5 --size 160x120 --frames '" + (place / "named").string() + "'", ranks(2))
+                    .status == 0);
+        std::filesystem::remove_all(place / "named");
+        const std::string later = "run --steps 40 --backend cpu --threads 1 --quiet --report - --resume " + file;
+        const std::string whole =
+            hash_after(run_scree("run " + scene + " --backend cpu --threads 1 --quiet --steps 40 --report -").output);
+        REQUIRE(hash_after(run_scree(later).output) == whole);
+    }
+}
+
 TEST_CASE("program: several processes end together, with a message", "[program][ranks]") {
     if (cannot_run()) return;
     const Outcome wrong = run_scree("run pile --distributed --copies 3", ranks(2));

@@ -1,8 +1,13 @@
 // Quarantine (shaders/physics/extra/quarantine.h): bodies that a scene makes infinite stop, are told, and leave the others alone.
 #include <catch2/catch.hpp>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/distributed/distributed.h"
+#include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/in_process.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/step/state.h"
@@ -38,6 +43,35 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps) {
     }
     return hashes;
 }
+
+// A runner one of whose steps finds a body beyond all scenes, as a law that fails would leave it: no scene without joints is
+// known to.
+template <class Base>
+class Poisoned : public Base {
+public:
+    template <class... Arguments>
+    Poisoned(std::size_t body, float height, Arguments&&... arguments)
+        : Base(std::forward<Arguments>(arguments)...), body_(body), height_(height) {}
+    void attach(State& state) override {
+        state_ = &state;
+        Base::attach(state);
+    }
+    bool step() override {
+        const std::uint32_t row = state_->row_of(body_);
+        const bool is_here = row != physics::NONE && (state_->presence.empty() || state_->is_owned(row));
+        if (++steps_ == poisoned_step && is_here) state_->poses[row].position.y = height_;
+        if (steps_ == poisoned_step) was_share = state_->is_share();
+        return Base::step();
+    }
+    static constexpr int poisoned_step = 30;
+    bool was_share = false;
+
+private:
+    std::size_t body_;
+    float height_;
+    State* state_ = nullptr;
+    int steps_ = 0;
+};
 
 }  // namespace
 
@@ -87,6 +121,37 @@ TEST_CASE("a quarantine has the same bits on any number of lanes, threads and ra
     rest.step(17);
     CHECK(rest.state_hash() == expected.back());
     CHECK(rest.save() == world.save());
+}
+
+TEST_CASE("a body that goes into quarantine in a share of a world is told to all ranks, and the world goes on as on one",
+          "[world]") {
+    Scene scene = tests::heap(200);
+    constexpr int steps = 60;
+    for (const float height : {std::numeric_limits<float>::infinity(), 2e15f})
+        for (const std::size_t body : {std::size_t{3}, std::size_t{120}}) {
+            World alone(scene, {}, std::make_unique<Poisoned<ReferenceRunner>>(body, height, 1));
+            const std::vector<std::uint64_t> expected = hashes_of(alone, steps);
+            REQUIRE(alone.quarantines().size() == 1);
+            const Quarantine there = alone.quarantines().front();
+            REQUIRE(there.body == body);
+            for (const int ranks : {2, 3}) {
+                std::vector<std::uint8_t> agree(static_cast<std::size_t>(ranks));
+                run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
+                    auto runner = std::make_unique<Poisoned<DistributedRunner>>(body, height, exchange, 1);
+                    const auto& seen_runner = *runner;
+                    World world(scene, {}, std::move(runner));
+                    const std::vector<std::uint64_t> seen = hashes_of(world, steps);
+                    const std::vector<Quarantine> found = world.quarantines();
+                    const Statistics statistics = world.statistics();
+                    agree[static_cast<std::size_t>(exchange->rank())] =
+                        seen_runner.was_share && seen == expected && found.size() == 1 && found[0].body == body &&
+                        found[0].step == there.step && found[0].stage == there.stage && world.body(body).quarantined &&
+                        statistics.not_finite == 1;
+                });
+                INFO("body " << body << " at " << height << " on " << ranks << " ranks");
+                CHECK(agree == std::vector<std::uint8_t>(agree.size(), 1));
+            }
+        }
 }
 
 TEST_CASE("a body put elsewhere leaves quarantine", "[world]") {

@@ -19,6 +19,10 @@ public:
     void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
     Image finish() override;
+    bool draws_parts() const override;
+    void set_bodies(const ShapeInstances& instances) override;
+    Image draw_part(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high,
+                    PictureParts& parts) override;
 
 private:
     struct Impl;

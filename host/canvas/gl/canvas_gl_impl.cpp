@@ -74,19 +74,22 @@ void GlCanvas::Impl::make_buffers() {
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         if (binding_infos()[i].source != Source::image) gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
     }
+    gl.glGenBuffers(1, &indices);
+    gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    gl.glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers[ARGUMENTS]);
+    fill_scenery();
+}
+
+void GlCanvas::Impl::fill_scenery() {
     fill(INSTANCES, scenery.instances.data(), std::span(scenery.instances).size_bytes());
     fill(RUN_TABLE, scenery.runs.data(), std::span(scenery.runs).size_bytes());
     const auto arguments = arguments_of(scenery, draws);
     fill(ARGUMENTS, arguments.data(), sizeof arguments);
-    gl.glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers[ARGUMENTS]);
     const std::vector<std::uint32_t> counts(std::size_t{groups_of_look(0, scenery.bodies())} * GROUP_WORDS);
     fill(GROUP_COUNTS, counts.data(), std::span(counts).size_bytes());
     const std::vector<vec4> tints(scenery.records);
     fill(TINTS, tints.data(), std::span(tints).size_bytes());
     fill(DIRECTIONS, scenery.directions.data(), std::span(scenery.directions).size_bytes());
-    GLuint indices = 0;
-    gl.glGenBuffers(1, &indices);
-    gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
     gl.glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(std::span(scenery.indices).size_bytes()),
                     scenery.indices.data(), GL_STATIC_DRAW);
 }

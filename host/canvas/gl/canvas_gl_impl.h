@@ -35,12 +35,14 @@ struct GlCanvas::Impl {
     std::array<GLuint, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<GLuint, BINDINGS> buffers{}, textures{};
+    GLuint indices = 0;
     std::array<Target, 2> shadow_maps;  // sun, sky
     Target scene, target;               // the bodies with `samples` samples, the final picture
     bool half_depth = false;            // clip space depth is 0..w, as in Vulkan
 
     void make_state();
     void make_buffers();
+    void fill_scenery();
     void make_programs();
     GLuint shader(GLenum kind, std::string_view name) const;
     GLuint linked(const std::vector<GLuint>& parts, const std::string& what) const;
@@ -54,12 +56,19 @@ struct GlCanvas::Impl {
 
     void fill(Binding binding, const void* data, std::size_t bytes) const;
     void fill_tables(ColorBy by) const;
-    void look() const;
+    void look(PictureParts* parts = nullptr) const;
+    void unite_light_bounds(PictureParts& parts) const;
     void begin(const Target& on) const;
     void set_state(const DrawState& state) const;
     void draw_all(Pass pass, std::uint32_t quad_count) const;
     void draw_shadows(std::size_t light) const;
     void draw_picture(std::uint32_t quad_count) const;
+    void draw_bodies(std::uint32_t quad_count) const;
+    // Fills the tables of a picture; returns its number of overlay quads.
+    std::uint32_t prepare(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 low, vec3 high) const;
+    Image read_picture() const;
+    bool has_parts() const;
+    std::vector<float> read_depths(const Target& of) const;
     void check(const char* what) const;
 };
 

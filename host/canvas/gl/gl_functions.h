@@ -44,7 +44,7 @@ namespace scree::host {
     X(glGetInteger64v, GETINTEGER64V) X(glGetProgramInfoLog, GETPROGRAMINFOLOG) X(glGetProgramiv, GETPROGRAMIV) \
     X(glGetShaderInfoLog, GETSHADERINFOLOG) X(glGetShaderiv, GETSHADERIV) X(glGetString, GETSTRING) \
     X(glGetStringi, GETSTRINGI) X(glGetUniformLocation, GETUNIFORMLOCATION) X(glLinkProgram, LINKPROGRAM) \
-    X(glPixelStorei, PIXELSTOREI) X(glReadPixels, READPIXELS) \
+    X(glMapBufferRange, MAPBUFFERRANGE) X(glUnmapBuffer, UNMAPBUFFER) X(glPixelStorei, PIXELSTOREI) X(glReadPixels, READPIXELS) \
     X(glRenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE) X(glShaderSource, SHADERSOURCE) \
     X(glTexParameterfv, TEXPARAMETERFV) X(glTexParameteri, TEXPARAMETERI) X(glTexStorage2D, TEXSTORAGE2D) \
     X(glTexSubImage2D, TEXSUBIMAGE2D) X(glUniform1i, UNIFORM1I) X(glUniform1ui, UNIFORM1UI) X(glUseProgram, USEPROGRAM) \
