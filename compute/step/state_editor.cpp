@@ -22,7 +22,6 @@ physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.rebound_energy *= factor;
     impulse.impact_energy *= factor;
     impulse.impact_weight *= factor;
-    impulse.flight_energy *= factor;
     impulse.friction *= factor;
     impulse.twist *= factor;
     impulse.rolling *= factor;

@@ -2,6 +2,7 @@
 // shape come to rest.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
@@ -43,14 +44,25 @@ struct Pile {
     int count;
     float height, half;  // of one, m
     float yaw, shift, turn;
+    float step_yaw = 0;  // from one to the next, rad
+    float gap = 0;       // between them at the start, m
 };
 void add_pile(Scene& scene, const Pile& pile, vec3 foot, Random& random, std::vector<Stacked>& stacked) {
     for (int i = 0; i < pile.count; ++i) {
+        const auto level = static_cast<float>(i);
         const float z = random.between(-pile.shift, pile.shift), x = random.between(-pile.shift, pile.shift);
-        const vec3 place(x, pile.height * (static_cast<float>(i) + 0.5f), z);
-        const float yaw = pile.yaw + random.between(-pile.turn, pile.turn);
+        const vec3 place(x, pile.height * (level + 0.5f) + pile.gap * level, z);
+        const float yaw = pile.yaw + pile.step_yaw * level + random.between(-pile.turn, pile.turn);
         stacked.push_back({add_body(scene, pile.shape, foot + place, turned({0, 1, 0}, yaw)), pile.half});
     }
+}
+
+Hull as_hull(const Box& box) {
+    Hull hull;
+    for (const float x : {-1.0f, 1.0f})
+        for (const float y : {-1.0f, 1.0f})
+            for (const float z : {-1.0f, 1.0f}) hull.points.push_back(vec3(x, y, z) * box.half_extents);
+    return hull;
 }
 
 }  // namespace
@@ -97,10 +109,14 @@ DemoScene coins(const DemoOptions& options) {
             x += 3 * radius;
         }
     }
-    x += 1;
-    for (int i = 0; i < 10; ++i)  // plates of 4 cm, crosswise
-        add_pile(scene, {Box{{0.5f, 0.02f, 0.1f}}, 1, 0.04f, 0.1f, 90 * degrees * static_cast<float>(i % 2), 0.005f, degrees},
-                 {x, 0.04f * static_cast<float>(i), 0}, random, stacked);
+    // Plates across each other, dropped by 2 mm each: boxes and hulls.
+    for (const auto& [shape, count, step_yaw] : {std::tuple<Shape, int, float>{Box{{0.5f, 0.02f, 0.1f}}, 10, 90 * degrees},
+                                                 {Box{{0.5f, 0.025f, 0.15f}}, 4, 75 * degrees},
+                                                 {as_hull(Box{{0.5f, 0.025f, 0.15f}}), 4, 90 * degrees}}) {
+        x += 1;
+        const float half = std::holds_alternative<Box>(shape) ? std::get<Box>(shape).half_extents.y : 0.025f;
+        add_pile(scene, {shape, count, 2 * half, 0.15f, 0, 0.005f, degrees, step_yaw, 0.002f}, {x, 0, 0}, random, stacked);
+    }
     return resting(std::move(scene), {-0.5f, 0, -1}, {x, 2, 1}, {none_fell(std::move(stacked))});
 }
 

@@ -137,6 +137,24 @@ TEST_CASE("crossed edges touch in one point between them", "[collide]") {
     CHECK(collide(cube, at(0, 0, 0, along_x), cube, at(0.1f, 1.435f, 0.2f, along_z), margin).count == 0u);
 }
 
+TEST_CASE("plates across each other, tilted a little both ways, touch in the four corners of their overlap", "[collide]") {
+    const BodyProperties plate = box(0.5f, 0.02f, 0.1f);
+    const vec4 across = turn(vec3(0, 1, 0), 1.5707963f);
+    for (const glm::vec2 tilt : {glm::vec2(0.02f, 0.03f), glm::vec2(-0.01f, 0.05f), glm::vec2(0.06f, -0.06f)}) {
+        const vec4 tilted = physics::compose(turn(vec3(1, 0, 0), tilt.x), physics::compose(turn(vec3(0, 0, 1), tilt.y), across));
+        // The lowest corner of the overlap is 1 mm deep.
+        const float height = 0.04f + 0.1f * (std::abs(tilt.x) + std::abs(tilt.y)) - 0.001f;
+        const ManifoldBuffer touch = collide(plate, at(0, 0, 0), plate, at(0, height, 0, tilted), 0.1f);
+        REQUIRE(touch.count == 4u);
+        CHECK(touch.manifold.normal.y > 0.99f);
+        CHECK(deepest_of(touch) == Approx(-0.001f).margin(3e-4));
+        for (uint k = 0; k < 4; ++k) {
+            CHECK(std::abs(point_of(touch, k).x) == Approx(0.1f).margin(2e-3));
+            CHECK(std::abs(point_of(touch, k).z) == Approx(0.1f).margin(2e-3));
+        }
+    }
+}
+
 TEST_CASE("a box sliding by millimetres on a larger one keeps its points and features", "[collide]") {
     Chance chance(2);
     const vec4 orientation = turn(vec3(0, 1, 0), 0.3f);

@@ -122,6 +122,64 @@ TEST_CASE("ten coins come to rest, of 1 m and of 10 cm") {
     }
 }
 
+TEST_CASE("plates across each other come to rest, boxes and hulls") {
+    for (const bool hull : {false, true}) {
+        for (const float yaw : {90.0f, 70.0f, 45.0f}) {
+            for (const float size : {1.0f, 0.1f}) {
+                const vec3 half = vec3(0.5f, 0.025f, 0.15f) * size;
+                Hull corners;
+                for (int k = 0; k < 8; ++k)
+                    corners.points.push_back(vec3(k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z));
+                Scene scene;
+                scene.bodies = {ground()};
+                for (int i = 0; i < 5; ++i) {
+                    Body body;
+                    body.shape = hull ? Shape(corners) : Shape(Box{half});
+                    const float angle = glm::radians(yaw * static_cast<float>(i));
+                    body.orientation = vec4(0, std::sin(0.5f * angle), 0, std::cos(0.5f * angle));
+                    body.position = vec3(0, half.y + (2.02f * half.y + 0.001f * size) * static_cast<float>(i), 0);
+                    scene.bodies.push_back(body);
+                }
+                World world(scene, awake(), 1);
+                const Motionlessness most = at_rest_after(world, 300);
+                CAPTURE(hull, yaw, size);
+                CHECK(most.speed < 0.005);  // 0.4 to 1 where their edges touched instead of their faces
+                CHECK(most.spin < 0.01);
+                CHECK(world.statistics().penetration_max < 0.001);  // half of a plate, 25 mm
+            }
+        }
+    }
+}
+
+TEST_CASE("heaps of thrown plates, prisms and rods come to rest") {
+    for (int kind = 0; kind < 3; ++kind) {
+        for (const float size : {1.0f, 0.06f}) {
+            tests::Noise noise(11);
+            Hull prism;
+            for (int k = 0; k < 12; ++k) {
+                const float angle = glm::radians(60.0f * static_cast<float>(k / 2));
+                prism.points.push_back(vec3(0.5f * std::cos(angle), k % 2 ? 0.05f : -0.05f, 0.5f * std::sin(angle)) * size);
+            }
+            Scene scene;
+            scene.bodies = {ground()};
+            for (int i = 0; i < 27; ++i) {
+                Body body;
+                body.shape = kind == 0   ? Shape(Box{vec3(0.5f, 0.05f, 0.3f) * size})
+                             : kind == 1 ? Shape(prism)
+                                         : Shape(Box{vec3(0.5f, 0.05f, 0.05f) * size});
+                body.orientation = glm::normalize(vec4(noise.vector(), 1.1f));
+                body.position = vec3(i % 3, 0.8f + static_cast<float>(i / 9), i / 3 % 3) * (1.3f * size);
+                scene.bodies.push_back(body);
+            }
+            World world(scene, awake(), 1);
+            const Motionlessness most = at_rest_after(world, 1140);
+            CAPTURE(kind, size);
+            CHECK(most.speed < 0.005);
+            CHECK(most.spin < 0.01);
+        }
+    }
+}
+
 TEST_CASE("a cylinder that wobbles round its rim comes to rest") {
     Scene scene;
     scene.bodies = {ground()};

@@ -242,7 +242,9 @@ struct Impulse {
     float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
     float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
     float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
-    float flight_energy;   // that gravity adds to the rebound of its bodies in this substep, J
+    // That gravity adds to the rebound of its bodies in this substep, J. Of an impact on joints that lasts: between substeps the
+    // speed before its last push, m/s; within a substep what that push changed, of an impulse of 1, 1/kg.
+    float flight_energy;
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s

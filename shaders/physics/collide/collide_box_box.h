@@ -108,6 +108,14 @@ LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 oth
     return touch;
 }
 
+// Edge axis k = 3i + j in the frame of A, towards B.
+LAW vec3 edge_axis_of(BoxView view, uint k) {
+    uint i = k >= 6u ? 2u : (k >= 3u ? 1u : 0u);
+    BoxView turn = of_turned(from_turned(view, i), k - 3u * i);
+    vec3 axis = unit3(vec3(0.0f, -turn.x.z, turn.x.y), vec3(0.0f, 1.0f, 0.0f));
+    return turned_back(dot3(axis, turn.d) < 0.0f ? -axis : axis, i);
+}
+
 // Of two boxes that are not apart. Faces of A are preferred to those of B, and both to edges, so that resting contacts do not
 // alternate.
 LAW ManifoldBuffer manifold_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, BoxAxes axes, float margin) {
@@ -120,8 +128,16 @@ LAW ManifoldBuffer manifold_of_boxes(BodyProperties a, Pose pose_a, BodyProperti
     bool of_b = best_b > best_a + 0.1f * slop;
     float best_face = of_b ? best_b : best_a;
     bool edge_serves = axes.edge.separation > best_face - slop;
+    bool is_edge = axes.edge.separation > best_face + slop;
+    vec3 axis = vec3(0.0f);
+    bool aligned = false;
+    if (is_edge) {
+        axis = edge_axis_of(b_from_a, axes.edge.k);
+        vec3 normal_b = face_b == 0u ? b_from_a.x : (face_b == 1u ? b_from_a.y : b_from_a.z);
+        aligned = is_aligned(of_b ? dot3(axis, normal_b) : coordinate(axis, face_a));
+    }
     ManifoldBuffer touch = empty_manifold();
-    if (axes.edge.separation <= best_face + slop) {
+    if (!is_edge || aligned) {
         Pose reference = pose_a;
         BoxView view = b_from_a;
         vec3 own = a.size;
@@ -137,8 +153,10 @@ LAW ManifoldBuffer manifold_of_boxes(BodyProperties a, Pose pose_a, BodyProperti
         touch = manifold_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
         if (of_b) touch = flipped(touch, pose_a.position - pose_b.position);
     }
+    if (aligned && is_patch_as_deep(touch, axes.edge.separation, slop))
+        return along_axis(touch, rotate(pose_a.orientation, axis), axes.edge.separation, margin);
     // If the clipped patch is not as deep as the face planes say, use an edge axis that is no worse.
-    if (edge_serves && deepest_of(touch) > best_face + slop) {
+    if (is_edge || (edge_serves && deepest_of(touch) > best_face + slop)) {
         ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, axes.edge, margin);
         if (by_edges.count > 0u) touch = by_edges;
     }

@@ -181,7 +181,12 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
     float slop = FACE_PREFERENCE * smaller(a.scale, b.scale);
     bool of_b = s.by_face_b > s.by_face_a + 0.1f * slop;
     float by_face = of_b ? s.by_face_b : s.by_face_a;
-    if (by_face >= s.distance - slop) {
+    bool aligned = false;
+    if (by_face > -1.0e29f && by_face < s.distance - slop) {
+        vec4 plane = of_b ? plane_of(b, s.face_b, hulls) : plane_of(a, s.face_a, hulls);
+        aligned = is_aligned(dot3(vec3(plane.x, plane.y, plane.z), s.normal));
+    }
+    if (by_face >= s.distance - slop || aligned) {
         ConvexShape own = a, other = b;
         vec3 between = d;
         uint face = s.face_a;
@@ -193,8 +198,9 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
         }
         ManifoldBuffer touch = manifold_of_face(own, other, between, face, slop, margin, hulls);
         if (of_b) touch = flipped(touch, -d);
+        if (aligned && is_patch_as_deep(touch, s.distance, slop)) return along_axis(touch, s.normal, s.distance, margin);
         // If the clipped patch is not as deep as the face's plane says, use the edges.
-        if (touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
+        if (!aligned && touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
     }
     return manifold_of_lines(a, b, d, s, margin, hulls);
 }

@@ -56,6 +56,30 @@ LAW float deepest_of(ManifoldBuffer touch) {
     return least;
 }
 
+// Plates that lie across each other, tilted a little both ways, overlap least along an axis of two edges, since the ends of each
+// reach below the face of the other beside it. Edges touch in one point, on which such plates rock for ever: three of
+// 1 x 0.3 x 0.05 m moved at 0.6 m/s, half a plate deep. So where the axis is nearly the normal of a face, and the face's clipped
+// patch is as deep, the contact has the patch's points and the axis as its normal.
+CONSTANT float ALIGNED = 0.98f;  // cosine: 11 degrees
+
+LAW bool is_aligned(float cosine) {
+    return abs(cosine) > ALIGNED;
+}
+LAW bool is_patch_as_deep(ManifoldBuffer touch, float separation, float slop) {
+    return touch.count > 1u && abs(deepest_of(touch) - separation) <= slop;
+}
+// The points along that unit axis from A to B, on which their least separation is known, m.
+LAW ManifoldBuffer along_axis(ManifoldBuffer touch, vec3 axis, float separation, float margin) {
+    float change = separation - deepest_of(touch);
+    ManifoldBuffer along = manifold_along(axis);
+    for (uint k = 0u; k < 4u; ++k) {
+        vec4 point = touch.manifold.points[k];
+        uint feature = (touch.manifold.features >> (8u * k)) & 255u;
+        if (k < touch.count) along = with_point(along, vec3(point.x, point.y, point.z), point.w + change, feature, margin);
+    }
+    return along;
+}
+
 LAW vec4 seen_from(vec4 point, vec3 d) {
     return vec4(point.x - d.x, point.y - d.y, point.z - d.z, point.w);
 }

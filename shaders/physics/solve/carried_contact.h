@@ -40,6 +40,7 @@ LAW Impulse carry_forward(Contact contact, Impulse was) {
     impulse.impact = was.impact;
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;
+    impulse.flight_energy = was.flight_energy;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

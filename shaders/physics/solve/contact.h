@@ -68,6 +68,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     }
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;
+    impulse.flight_energy = was.flight_energy;
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);

@@ -65,6 +65,34 @@ LAW bool is_impact(Impulse impulse) {
     return a.x > 0.0f || a.y > 0.0f || a.z > 0.0f || a.w > 0.0f;
 }
 
+// What the last push did of an impact on joints. It acted on one body of the assembly, whose others took their part through
+// the joints afterwards: the speed of the contact went from `from` to `to`, m/s. As long as the bodies approached that was
+// compression, of which the impact returns e^2, then it was expansion. And the change of speed tells on what mass the assembly
+// answers: with that mass the next push does what is left, whatever hangs on the struck body. (With the work of compression of
+// the struck body alone, an upright pair of welded balls rose 1.29 times as high with e = 0.7; with the impact at an end where
+// the rest of the compression is more than what it returns, it did not rise at all with e of 0.7 and less.)
+struct JoinedPush {
+    float energy;    // that is left to return, J
+    float progress;  // J, >= 0
+    float response;  // change of speed by an impulse of 1, 1/kg
+    float pad0;
+};
+LAW JoinedPush joined_push(float pushed, float from, float to, float energy, float e2) {
+    JoinedPush push;
+    float gained = to - from;
+    float mean = 0.5f * (pushed * reciprocal(larger(gained, 1.0e-6f)));
+    float low_from = smaller(from, 0.0f), low_to = smaller(to, 0.0f), high_from = positive(from), high_to = positive(to);
+    float compression = positive(mean * (low_from * low_from - low_to * low_to));
+    float expansion = positive(mean * (high_to * high_to - high_from * high_from));
+    push.energy = flush_least((energy + e2 * compression) - expansion);
+    push.progress = 0.5f * (pushed * positive(gained));
+    push.response = choose(gained > 0.0f, gained * reciprocal(larger(pushed, 1.0e-18f)), 1.0e30f);
+    push.pad0 = 0.0f;
+    return push;
+}
+// On how much more than the mass of the struck bodies the next push may act.
+CONSTANT float LEAST_RESPONSE = 0.0625f;
+
 // As a substep begins: what an impact of the last one has yet to return, by the velocities that it reached.
 LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, vec4 state, Parameters parameters) {
     float gain = parameters.h * dot3(c.normal, xyz(state));  // by gravity since
@@ -77,7 +105,16 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     }
     float before = impulse.rebound_energy;
     float left = flush_least(before - work);
-    bool held = is_on_joints(state) && work < REBOUND_PROGRESS * before;
+    bool joined = impulse.impact_energy > 0.0f && impulse.flight_energy != 0.0f, held = false;
+    float response = 0.0f;
+    if (!none(joined)) {
+        float pushed = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
+        float reached = 2.0f * (work * reciprocal(larger(pushed, 1.0e-18f)));
+        JoinedPush push = joined_push(pushed, impulse.flight_energy, reached, before, c.restitution * c.restitution);
+        left = choose(joined, push.energy, left);
+        held = joined && push.progress < REBOUND_PROGRESS * before;
+        response = push.response;
+    }
     bool lasted = is_impact(impulse) && impulse.impact_energy > 0.0f;
     bool lasts = lasted && left > REBOUND_LEFT * impulse.impact_energy && !held;
     float weight = choose(left < before, square_root(positive(left * reciprocal(larger(before, left)))), 1.0f);
@@ -86,7 +123,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     impulse.impact_energy = choose(lasts, impulse.impact_energy, 0.0f);
     impulse.impact_weight =
         choose(lasts, weight * ((impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w)), 0.0f);
-    impulse.flight_energy = 0.0f;
+    impulse.flight_energy = choose(lasts && joined, response, 0.0f);
     return impulse;
 }
 
@@ -145,7 +182,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     float e2 = c.restitution * c.restitution;
     float pull = dot3(c.normal, xyz(state));
     float whole = larger(a.split, b.split);
-    impulse.flight_energy = 0.0f;
+    float flights = 0.0f;
     // What presses again without a new impact, and would not rebound faster than from the slowest one, comes to rest: only
     // what is no impact is warm started.
     bool rests = false;
@@ -154,6 +191,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     float pushed_by = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
     rests = rests && impulse.rebound_energy < 0.5f * (pushed_by * slowest_impact(c, state, parameters));
     impulse = with_impact(impulse, impulse, !rests);
+    bool joined = impulse.flight_energy > 0.0f;  // a response
     for (int k = 0; k < 4; ++k) {
         float pressed = impulse.normal[k] - normal_before[k];
         bool struck = (striking[k] < 0.0f || impulse.impact[k] > 0.0f) && pressed > 0.0f;
@@ -167,7 +205,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
         float own_mass = mass_along(jacobian_row(r, c.normal, a, b), a, b);
         float mass = smaller(pressed * reciprocal(rise), MOST_STRUCK_MASS * own_mass);
         float flight = whole * (mass * (wanted * wanted - e2 * (speed * speed)));
-        impulse.flight_energy = choose(struck, impulse.flight_energy + 0.5f * flight, impulse.flight_energy);
+        flights = choose(struck, flights + 0.5f * flight, flights);
         impulse.rebound_energy = choose(struck, impulse.rebound_energy - 0.5f * (pressed * (e2 * speed)), impulse.rebound_energy);
         impulse.impact_weight = choose(struck, impulse.impact_weight + (pressed + mass * wanted), impulse.impact_weight);
         impulse.impact[k] = choose(struck, impulse.impact[k] + pressed, impulse.impact[k]);
@@ -175,7 +213,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     impulse.impact = flush_tiny(impulse.impact);
     impulse.impact_weight = flush_tiny(impulse.impact_weight);
     impulse.rebound_energy = flush_least(impulse.rebound_energy);
-    impulse.flight_energy = flush_least(impulse.flight_energy);
+    impulse.flight_energy = choose(joined, impulse.flight_energy, flush_least(flights));
     return impulse;
 }
 
@@ -209,6 +247,12 @@ LAW ImpactMode impact_mode(Constraint c, Impulse impulse, VelocityPair v, Mass a
         mode.inverse_effective_mass =
             choose(struck, mode.inverse_effective_mass + mode.share[k] * speed, mode.inverse_effective_mass);
     }
+    return mode;
+}
+
+LAW ImpactMode of_assembly(ImpactMode mode, float response, bool answered) {
+    float own = mode.inverse_effective_mass;
+    mode.inverse_effective_mass = choose(answered, clamped(response, LEAST_RESPONSE * own, own), own);
     return mode;
 }
 
@@ -271,12 +315,16 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     }
     // An approach that is left, or a speed of the push-out, is energy of the compression as well.
     ImpactMode before = impact_mode(met, there, reached, a, b);
+    bool joined = is_on_joints(state), answered = joined && impulse.impact_energy > 0.0f;
+    if (!none(answered)) before = of_assembly(before, impulse.flight_energy, answered);
     float rest = 0.5f * ((before.speed * before.speed) * reciprocal(before.inverse_effective_mass));
     bool compressed = pressed > 0.0f || before.speed < 0.0f;
-    float flight = impulse.flight_energy * reciprocal(larger(a.split, b.split));
-    float energy = impulse.rebound_energy - debt + flight - e2 * work - choose(compressed, (1.0f - e2) * rest, 0.0f);
+    float flight = choose(answered, 0.0f, impulse.flight_energy * reciprocal(larger(a.split, b.split)));
+    float stored = impulse.rebound_energy - debt + flight - e2 * work;
+    float energy = stored - choose(compressed, (1.0f - e2) * rest, 0.0f);
 
     ImpactMode mode = impact_mode(c, impulse, v, a, b);
+    if (!none(answered)) mode = of_assembly(mode, impulse.flight_energy, answered);
     float squared = mode.speed * mode.speed + 2.0f * (energy * mode.inverse_effective_mass);
     float push = (square_root(positive(squared)) - mode.speed) * reciprocal(mode.inverse_effective_mass);
     vec4 normal = impulse.normal;
@@ -303,15 +351,18 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     }
     // Where all else stays as it is, the work is done at once.
     bool passes_on = is_on_joints(state) || larger(a.split, b.split) > 1.001f;
-    bool lasts = passes_on && push > 0.0f && energy > 0.0f;
+    bool lasts = passes_on && push > 0.0f && (energy > 0.0f || (joined && squared > 0.0f));
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
         float change = flush_tiny(normal[k] - impulse.normal[k]);
         result.impulse.impact[k] = choose(struck && lasts, change, result.impulse.impact[k]);
         result.impulse.normal[k] = choose(struck, normal[k], result.impulse.normal[k]);
     }
-    result.impulse.impact_energy = choose(lasts, larger(impulse.impact_energy, flush_least(energy)), 0.0f);
-    result.impulse.rebound_energy = choose(lasts, flush_least(energy - done), 0.0f);
+    float to_return = choose(joined, stored + e2 * rest, energy);
+    result.impulse.impact_energy = choose(lasts, larger(impulse.impact_energy, flush_least(to_return)), 0.0f);
+    result.impulse.rebound_energy = choose(lasts, flush_least(choose(joined, stored, energy - done)), 0.0f);
+    float from = choose(mode.speed == 0.0f, -1.0e-9f, mode.speed);
+    result.impulse.flight_energy = choose(lasts && joined, from, 0.0f);
     return result;
 }
 
