@@ -119,7 +119,9 @@ std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& ra
     std::vector<dvec3> points;
     for (std::size_t tries = 0; points.size() < count && tries < 10'000 * count; ++tries) {
         const dvec3 half = region.half;
-        const dvec3 point(random.between(-half.x, half.x), random.between(-half.y, half.y), random.between(-half.z, half.z));
+        // z first: compilers differ in the order in which they take arguments.
+        const double z = random.between(-half.z, half.z), y = random.between(-half.y, half.y);
+        const dvec3 point(random.between(-half.x, half.x), y, z);
         if (region.holds(point)) points.push_back(point);
     }
     for (int round = 0; round < 2; ++round) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "compute/step/scene_compiler.h"
@@ -242,10 +243,14 @@ std::uint32_t State::with_reserve(std::uint64_t need) {
     return static_cast<std::uint32_t>(std::min(need + std::max(std::min(need, is_long) / 4, need / 16), most));
 }
 
+std::pair<std::uint32_t, std::uint32_t> State::grown_capacities() const {
+    const physics::Counts& c = counted();
+    return {c.overflow & physics::OVERFLOW_PAIRS ? with_reserve(c.required_pairs) : fixed().pair_capacity,
+            c.overflow & physics::OVERFLOW_CONTACTS ? with_reserve(c.required_contacts) : fixed().contact_capacity};
+}
+
 void State::grow() {
-    const physics::Counts c = counted();
-    if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_reserve(c.required_pairs);
-    if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_reserve(c.required_contacts);
+    std::tie(fixed().pair_capacity, fixed().contact_capacity) = grown_capacities();
     counted().overflow = 0;
     allocate();
 }
@@ -277,6 +282,24 @@ std::size_t State::bytes_of_loops() const {
     return sum(pair_manifolds, partners, entry_cells, least_partners, row_kinds, movable_bodies, driven_bodies, movable,
                fast_pairs, paces, solver_classes, lane_contacts, near_rows.boxes, near_rows.firsts, near_rows.ends,
                near_rows.others, near_rows.places);
+}
+
+std::size_t State::bytes_on_host() const {
+    std::size_t bytes = 0;  // tables share no memory here
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (!is_of_devices(static_cast<Table>(i))) bytes += raw_bytes(static_cast<Table>(i));
+    const std::size_t of_pair = sizeof(decltype(pair_manifolds)::value_type) + sizeof(decltype(fast_pairs)::value_type);
+    const std::size_t of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) * 17 / 16;  // lane_contacts
+    return bytes + of_pair * fixed().pair_capacity + of_contact * fixed().contact_capacity;
+}
+
+std::size_t State::bytes_when_grown(bool on_host) {
+    physics::Parameters& p = fixed();
+    const std::pair before{p.pair_capacity, p.contact_capacity};
+    std::tie(p.pair_capacity, p.contact_capacity) = grown_capacities();
+    const std::size_t found = on_host ? bytes_on_host() : bytes();
+    std::tie(p.pair_capacity, p.contact_capacity) = before;
+    return found;
 }
 
 std::span<std::byte> State::raw(Table table) {

@@ -171,6 +171,7 @@ struct State {
 
     // Grows the lists to what the last step required, with a reserve. Contents stay.
     void grow();
+    std::pair<std::uint32_t, std::uint32_t> grown_capacities() const;  // of pairs and of contacts
     static std::uint32_t with_reserve(std::uint64_t need);
     // Returns the memory of contacts beyond a capacity, which those in use fit into.
     void shrink_contacts(std::uint32_t capacity);
@@ -274,6 +275,9 @@ struct State {
     }
     std::size_t bytes() const;                 // of all tables, as on a device
     std::size_t bytes_of_loops() const;        // of what the CPU loops have beside the tables, by the length in use
+    std::size_t bytes_on_host() const;  // of all tables and long caches of a runner that is in_place(), at most
+    // What they would be after grow(), before it is called. `on_host`: those of bytes_on_host().
+    std::size_t bytes_when_grown(bool on_host);
     std::size_t raw_bytes(Table table) const;  // of an allocated table
 
     std::span<std::byte> raw(Table table);

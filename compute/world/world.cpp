@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -90,8 +91,42 @@ void World::Impl::make_room_for_actions() {
     runner->adapt();
 }
 
+// The body that owns most pairs, from how the pairs were counted or listed.
+std::string World::Impl::most_paired_body() const {
+    const std::uint32_t bodies = state.fixed().bodies;
+    if (bodies == 0) return "";
+    runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
+    const auto pairs_of = [&](std::uint32_t row) { return state.pair_starts[row + 1] - state.pair_starts[row]; };
+    std::uint32_t most = 0;
+    for (std::uint32_t row = 1; row < bodies; ++row)
+        if (pairs_of(row) > pairs_of(most)) most = row;
+    const std::uint32_t body = state.body_of(most);
+    const auto speed = static_cast<double>(glm::length(state.velocities[body].linear));
+    char text[160];
+    int end = std::snprintf(text, sizeof text, " alone may touch %u others", pairs_of(most));
+    if (const double way = speed / static_cast<double>(settings.rate); way > 0.1)
+        std::snprintf(text + end, sizeof text - static_cast<std::size_t>(end), ", moving at %.3g m/s by %.3g m in the step",
+                      speed, way);
+    return (shared ? "body " + std::to_string(state.id_of(body)) : name_of_body(state.id_of(body))) + text;
+}
+
+void World::Impl::require_memory_for_lists() {
+    const std::size_t needed = state.bytes_when_grown(runner->in_place());
+    if (needed <= memory_limit) return;
+    const physics::Counts& counts = state.counted();
+    const bool of_pairs = (counts.overflow & physics::OVERFLOW_PAIRS) != 0;
+    char text[200];
+    std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and %.3g GB are allowed; ",
+                  static_cast<unsigned long long>(steps + 1), of_pairs ? counts.required_pairs : counts.required_contacts,
+                  of_pairs ? "pairs of bodies that may touch" : "contacts", static_cast<double>(needed) * 1e-9,
+                  static_cast<double>(memory_limit) * 1e-9);
+    throw std::length_error(text + most_paired_body() +
+                            ". Fewer bodies or fragments, lower speeds, a higher rate or more memory would do");
+}
+
 void World::Impl::make_room_for_lists() {
     const auto begin = Timeline::Clock::now();
+    require_memory_for_lists();
     state.grow();
     ++growths;
     state.fixed().redo = 1;
@@ -206,6 +241,10 @@ void World::step(int count) {
             if (const int alone = std::min({count, most_alone, in.steps_until_arrival()}); alone > 0)
                 count -= in.steps_alone(alone);
     }
+}
+
+void World::set_memory_limit(std::size_t bytes) {
+    interior_.as_it_is().memory_limit = bytes;
 }
 
 std::uint64_t World::steps() const {

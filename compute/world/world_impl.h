@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,7 +41,8 @@ struct World::Impl {
     std::array<std::optional<Held>, most_grips> grips;
     std::uint64_t steps = 0;
     std::uint64_t growths = 0;
-    bool reorder_now = false;  // requested by reorder()
+    std::size_t memory_limit = std::numeric_limits<std::size_t>::max();  // bytes of the tables
+    bool reorder_now = false;                                            // requested by reorder()
     std::uint64_t reorderings = 0;
     double seconds_to_look = 0;  // duration of the last check of the memory order
     std::optional<std::chrono::steady_clock::time_point> looked;
@@ -123,6 +125,8 @@ struct World::Impl {
     void tell_timeline(Timeline::Time begin, std::uint64_t steps_before);  // of steps that have ended
     void make_room_for_actions();
     void make_room_for_lists();                 // and requests repetition of the step
+    void require_memory_for_lists();            // throws std::length_error beyond memory_limit
+    std::string most_paired_body() const;       // for messages
     void require_body(std::size_t body) const;  // throws std::out_of_range for an index that none has, or a removed body
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;
@@ -133,6 +137,7 @@ struct World::Impl {
 
     // shares.cpp
     struct Shared {
+        Shared() {}  // clang knows no initialisers of members before the enclosing class ends
         std::size_t bodies = 0, per_rank = 0, first = 0;  // of the whole scene; at home on each rank; the first at home here
         std::vector<Body> home;
         std::map<std::size_t, Body> still;  // all that are not dynamic

@@ -70,19 +70,71 @@ Advice advice_on(const std::vector<Quarantine>& stopped, const World& world) {
             "give them masses, sizes, speeds, springs and distances that are less extreme, or " + finer(world.settings())};
 }
 
-// Whether something other than gravity may give energy to bodies.
+// Axes with what may store or give energy.
+template <class Visit>
+void for_each_spring(const Joint& joint, Visit&& visit) {
+    if (const auto* hinge = std::get_if<Hinge>(&joint.kind)) visit(JointAxis::twist, hinge->turn.spring, hinge->turn.motor);
+    if (const auto* slider = std::get_if<Slider>(&joint.kind)) visit(JointAxis::x, slider->slide.spring, slider->slide.motor);
+    if (const auto* distance = std::get_if<Distance>(&joint.kind)) visit(JointAxis::x, distance->spring, std::optional<Motor>());
+    const auto* six = std::get_if<SixDof>(&joint.kind);
+    if (!six) return;
+    const Axis* axes[] = {&six->x, &six->y, &six->z, &six->twist, &six->swing_y, &six->swing_z};  // by JointAxis
+    for (int i = 0; i < 6; ++i) visit(static_cast<JointAxis>(i), axes[i]->spring, axes[i]->motor);
+}
+
+// Whether something gives energy to bodies: what moves by itself, motors, engines, and springs that are motors (of a limited
+// force, or of an angle, which jumps where it has turned around). Gravity and other springs store energy, which is counted.
 bool is_driven(const Scene& scene) {
-    const auto pushes = [](const Body& body) {
-        return body.motion == Motion::kinematic || glm::dot(body.surface_velocity, body.surface_velocity) > 0;
+    const auto moves = [](vec3 v) { return glm::dot(v, v) > 0; };
+    const auto pushes = [&](const Body& body) {
+        return (body.motion == Motion::kinematic && (moves(body.velocity) || moves(body.angular_velocity))) ||
+               moves(body.surface_velocity);
     };
     const auto gives = [](const Joint& joint) {
-        const auto by = [](const Axis& axis) { return axis.spring || axis.motor; };
-        if (const auto* hinge = std::get_if<Hinge>(&joint.kind)) return by(hinge->turn);
-        if (const auto* slider = std::get_if<Slider>(&joint.kind)) return by(slider->slide);
-        return std::holds_alternative<SixDof>(joint.kind) || std::holds_alternative<Distance>(joint.kind);
+        bool any = false;
+        for_each_spring(joint, [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>& motor) {
+            any |= motor.has_value() ||
+                   (spring && spring->stiffness > 0 && (spring->max_force < unlimited || axis >= JointAxis::twist));
+        });
+        return any;
     };
     return scene.fields.any() || !scene.vehicles.empty() || std::ranges::any_of(scene.bodies, pushes) ||
            std::ranges::any_of(scene.joints, gives);
+}
+
+struct Stored {
+    double energy = 0;  // J, of springs
+    double unsure = 0;  // J, by which it may be wrong, as coordinates are rounded
+};
+
+Stored stored_in_springs(const World& world) {
+    const std::vector<Joint>& joints = world.scene().joints;
+    const auto springs = [](const Joint& joint) {
+        bool any = false;
+        for_each_spring(joint, [&](JointAxis, const std::optional<Spring>& spring, const std::optional<Motor>&) {
+            any |= spring && spring->stiffness > 0;
+        });
+        return any;
+    };
+    Stored found;
+    if (std::ranges::none_of(joints, springs)) return found;
+    const std::vector<JointState> states = world.joints();
+    const std::vector<BodyState> bodies = world.bodies();
+    const auto reach = [&](std::size_t body) {
+        return body == the_world ? 0.0 : static_cast<double>(glm::length(bodies.at(body).position));
+    };
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (states[i].broken) continue;
+        for_each_spring(joints[i], [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>&) {
+            if (!spring) return;
+            const double stretch = static_cast<double>(states[i].coordinates[static_cast<std::size_t>(axis)] - spring->rest);
+            const double rounding = 1e-6 * (1 + reach(joints[i].a) + reach(joints[i].b) + std::abs(stretch));
+            const double stiffness = static_cast<double>(spring->stiffness);
+            found.energy += 0.5 * stiffness * stretch * stretch;
+            found.unsure += stiffness * rounding * (std::abs(stretch) + rounding);
+        });
+    }
+    return found;
 }
 
 }  // namespace
@@ -109,11 +161,12 @@ void Adviser::after_step(const World& world) {
     if (second || std::ranges::find(early_looks, world.steps()) != std::end(early_looks)) look_at_burdens(world);
 }
 
-// From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart at the start, and
+// From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart in the first second, and
 // soft contacts under a great weight give back what they took: a gain without cause is one that moves bodies.
 void Adviser::look_at_energy(const World& world, const Statistics& statistics) {
-    const double energy = statistics.kinetic_energy + statistics.potential_energy;
-    const double given_back = soft * std::abs(statistics.potential_energy);
+    const Stored springs = stored_in_springs(world);
+    const double energy = statistics.kinetic_energy + statistics.potential_energy + springs.energy;
+    const double given_back = soft * std::abs(statistics.potential_energy) + springs.unsure;
     least_ = samples_.size() == 1 ? energy : std::min(least_, energy);
     const double gain = std::min(energy - least_ - given_back, statistics.kinetic_energy);
     if (samples_.size() > 1 && gain > worth_telling * moved_with_ && gain > gained_) gained_ = gain, gained_at_ = world.time();
@@ -162,10 +215,11 @@ std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) 
     const std::vector<Quarantine> stopped = world.quarantines();
     if (!stopped.empty()) all.push_back(advice_on(stopped, world));
     if (gained_ > 0) {
-        all.push_back({fmt::format("energy grew without a cause, by {:.3g} J until {:.3g} s, where bodies had moved with at most "
-                                   "{:.3g} J: no motor, spring, vehicle, wind or command gave it",
-                                   gained_, gained_at_, moved_with_),
-                       finer(settings) + " keeps energy better"});
+        all.push_back(
+            {fmt::format("energy grew without a cause, by {:.3g} J until {:.3g} s, where bodies had moved with at most "
+                         "{:.3g} J: neither springs nor motors, what moves by itself, vehicles, wind, water or commands gave it",
+                         gained_, gained_at_, moved_with_),
+             finer(settings) + " keeps energy better"});
     }
     if (last.spin_limited > 0) {
         all.push_back(

@@ -39,7 +39,7 @@ private:
     Sample sample_of(const World& world, const Statistics& statistics) const;
 
     bool sees_contacts_ = true;
-    bool closed_ = false;                // nothing but gravity gives energy
+    bool closed_ = false;                // nothing gives energy but gravity and springs, whose energy is counted
     double least_ = 0, moved_with_ = 0;  // energy, greatest kinetic energy, J
     double gained_ = 0, gained_at_ = 0;  // J, s
     double half_width_ = 0;              // m, median of the dynamic bodies' least half widths

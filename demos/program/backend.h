@@ -23,8 +23,9 @@ struct Backend {
     std::shared_ptr<host::Device> screen = nullptr;  // the device that presents a window; null unless requested
 
     std::unique_ptr<Runner> make_runner() const;
-    std::string driver() const;  // of the device, with its version; empty: the CPU
-    bool draws() const;          // whether it is a device with graphics
+    std::string driver() const;   // of the device, with its version; empty: the CPU
+    bool draws() const;           // whether it is a device with graphics
+    bool has_own_memory() const;  // whether it is a device whose memory is not this process's
     // Where the device's arithmetic gives other bits than the CPU's (compute/device/arithmetic_check.h); empty: nowhere.
     std::string arithmetic_fault() const;
     double copy_speed() const;  // bytes per second, reads plus writes (host/copy_speed.h); takes a moment

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compute/cpu/denormal_lockstep.h"
+#include "compute/cpu/stage_record.h"
 #include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/compare_device.h"
@@ -14,6 +15,7 @@
 #include "demos/program/loaded_scene.h"
 #include "demos/program/progress.h"
 #include "demos/program/report.h"
+#include "host/files/file.h"
 
 namespace scree::demos {
 
@@ -26,8 +28,30 @@ struct CompareOptions {
     std::string resume;  // checkpoint to begin with; may be empty
     std::optional<ResumedRun> resumed;
     bool flush_denormals = false;
+    std::string keep, against;  // files of what stages wrote; may be empty
     bool quiet = false;
 };
+
+// On one machine: writes what the stages of these steps write there. On another: compares with that.
+LockstepResult with_file(const CompareOptions& options, const LoadedScene& subject, const Settings& settings, int steps,
+                         const std::function<bool(int)>& step_done) {
+    const std::span<const std::byte> from =
+        options.resumed ? std::span<const std::byte>(options.resumed->file.state) : std::span<const std::byte>();
+    const int threads = options.machine.threads;
+    try {
+        if (!options.keep.empty()) {
+            const auto written = record_stages(subject.scene, settings, threads, steps, from, step_done);
+            if (!is_interrupted()) host::write_atomically(options.keep, written);
+            return {};
+        }
+        const std::string record = host::read_regular(options.against, longest_stage_record + (1 << 20));
+        return compare_with_record(std::as_bytes(std::span(record)), subject.scene, settings, threads, steps, from, step_done);
+    } catch (const CheckpointError& error) {
+        throw UsageError(std::string("--resume: ") + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--against " + options.against + ": " + error.what());
+    }
+}
 
 int compare(const CompareOptions& options) {
     const LoadedScene subject = load_subject(options.scene);
@@ -41,7 +65,10 @@ int compare(const CompareOptions& options) {
         return !is_interrupted();
     };
     DeviceComparison found;
-    if (options.flush_denormals) {
+    if (!options.keep.empty() || !options.against.empty()) {
+        found.device = "the record " + options.against;
+        found.result = at_work([&] { return with_file(options, subject, settings, steps, step_done); });
+    } else if (options.flush_denormals) {
         found.device = "the same processor with denormals flushed";
         found.result = at_work([&] { return compare_flushing(subject.scene, settings, steps, step_done); });
     } else {
@@ -55,6 +82,11 @@ int compare(const CompareOptions& options) {
         return interrupted;
     }
     const LockstepResult& result = found.result;
+    if (!options.keep.empty()) {
+        fmt::print("{}: {} has what every stage of {} steps wrote; on the other machine: scree compare ... --against\n",
+                   subject.name, options.keep, steps - before);
+        return done;
+    }
     if (result.equal && !found.arithmetic_fault.empty()) {
         fmt::print("{}: {} is not exact, so it is not equal, though {} steps met no difference: its {}\n", subject.name,
                    found.device, steps - before, found.arithmetic_fault);
@@ -113,6 +145,14 @@ void add_compare(CLI::App& program, int& status) {
         ->excludes("--device")
         ->excludes(resume)
         ->excludes(copies);
+    CLI::Option* keep = command->add_option("--keep", options->keep,
+                                            "Compare nothing: write what every stage of these steps writes on this machine's CPU "
+                                            "to a file, for --against on another.");
+    CLI::Option* against = command->add_option("--against", options->against,
+                                               "Compare this machine's CPU with a file of --keep from another: the same scene or "
+                                               "checkpoint, and as many steps or fewer.");
+    for (CLI::Option* file : {keep, against}) file->excludes("--device")->excludes("--flush-denormals")->excludes(copies);
+    keep->excludes(against);
     command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(

@@ -13,6 +13,7 @@
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
 #include "demos/film/camera.h"
+#include "demos/program/backend.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
@@ -29,6 +30,17 @@ namespace {
 // out of memory.
 constexpr double bytes_per_body = 7000;
 
+// What a resource limit leaves of the kind of memory that a line of /proc/self/status tells.
+double left_of(decltype(RLIMIT_AS) resource, const std::string& line) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::numeric_limits<double>::infinity();
+    std::ifstream status("/proc/self/status");
+    double kilobytes = 0;
+    for (std::string key; status >> key; std::getline(status, key))
+        if (key == line && status >> kilobytes) break;
+    return static_cast<double>(limit.rlim_cur) - kilobytes * 1024;
+}
+
 // Memory available to this process, bytes: the system's estimate, or less under a resource limit.
 double available_memory() {
     double bytes = std::numeric_limits<double>::infinity();
@@ -43,10 +55,7 @@ double available_memory() {
     if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
         bytes = std::min(bytes, limit - used);
     }
-    rlimit address_space{};
-    if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
-        bytes = std::min(bytes, static_cast<double>(address_space.rlim_cur));
-    }
+    bytes = std::min({bytes, left_of(RLIMIT_AS, "VmSize:"), left_of(RLIMIT_DATA, "VmData:")});
     return std::max(bytes, 0.0);
 }
 
@@ -210,6 +219,13 @@ void require_memory_for(std::size_t bodies) {
     if (bodies <= most_bodies()) return;
     throw UsageError(fmt::format("--bodies {}: beyond memory: they need about {:.3g} GB, {}; ask for fewer", bodies,
                                  static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
+}
+
+void limit_memory(World& world, const Backend& machine) {
+    if (machine.options.memory != 0)
+        world.set_memory_limit(machine.options.memory);
+    else if (!machine.has_own_memory())
+        world.set_memory_limit(world.buffer_bytes() + static_cast<std::size_t>(available_memory()));
 }
 
 LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std::string>* notes) {

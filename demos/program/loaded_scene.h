@@ -7,11 +7,14 @@
 
 #include "compute/scene.h"
 #include "compute/scene_file/scene_json.h"
+#include "compute/world.h"
 #include "demos/program/options.h"
 #include "demos/scenes/script.h"
 #include "demos/suite/promise.h"
 
 namespace scree::demos {
+
+struct Backend;  // demos/program/backend.h
 
 struct LoadedScene {
     std::string name;
@@ -43,5 +46,9 @@ SceneDocument document_of(const LoadedScene& subject, const World& world, std::o
 
 // Throws UsageError if a run of that many bodies would not fit into free memory.
 void require_memory_for(std::size_t bodies);
+
+// Steps are refused, with what they ask for, before their tables take more than MachineOptions::memory or than is free. A
+// device with memory of its own tells itself when that ends.
+void limit_memory(World& world, const Backend& machine);
 
 }  // namespace scree::demos

@@ -91,9 +91,7 @@ DemoScene avalanche(const DemoOptions& options) {
     add_valley(scene, v);
     Random random(options.seed);
     // Random offsets within the cell, larger for smaller stones, so that the lattice does not show.
-    const auto stray = [](float reach, Random& dice) {
-        return vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)) * ((largest_reach - reach) * 0.577f);
-    };
+    const auto stray = [](float reach, Random& dice) { return dice.vector(-1, 1) * ((largest_reach - reach) * 0.577f); };
     const auto side = static_cast<std::size_t>(v.columns);
     for (std::size_t i = 0; i < options.bodies; ++i) {
         const float reach = random.between(smallest_reach, largest_reach);

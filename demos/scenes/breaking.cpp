@@ -118,9 +118,10 @@ DemoScene wrecking(const DemoOptions& options) {
             Body body = box_at({x, brick.y * static_cast<float>(2 * row + 1), random.between(-0.002f, 0.002f)},
                                brick - vec3(0.0005f, 0, 0));
             body.density = 1800;
+            const std::uint32_t cut = 1 + random.bits() % 4;
+            const Cutting cutting = random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi;
             // Higher thresholds lower down, where bricks carry the wall.
-            body.fracture = breaking(800 + 140 * static_cast<float>(rows - row),
-                                     random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi, 7, 1 + random.bits() % 4);
+            body.fracture = breaking(800 + 140 * static_cast<float>(rows - row), cutting, 7, cut);
             bricks.push_back(scene.bodies.size());
             scene.bodies.push_back(body);
         }
@@ -231,8 +232,9 @@ DemoScene shatter(const DemoOptions& options) {
             body.shape = Cylinder{0.25f, 0.35f};
         }
         body.density = 800;
-        body.position = vec3(column - 0.5f * (side - 1), layer, row - 0.5f * (side - 1)) * spacing +
-                        vec3(random.between(-0.05f, 0.05f), 4 + random.between(-0.05f, 0.05f), random.between(-0.05f, 0.05f));
+        vec3 stray = random.vector(-0.05f, 0.05f);
+        stray.y = 4 + stray.y;
+        body.position = vec3(column - 0.5f * (side - 1), layer, row - 0.5f * (side - 1)) * spacing + stray;
         body.orientation = random.orientation();
         body.fracture = breaking(250, cutting, 5, seed);
         all.push_back(scene.bodies.size());

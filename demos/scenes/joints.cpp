@@ -151,8 +151,9 @@ DemoScene bridge(const DemoOptions& options) {
     const std::size_t crates = scene.bodies.size();
     for (int i = 0; i < 12; ++i) {
         const float x = -4 + 0.7f * static_cast<float>(i);
-        scene.bodies.push_back(box_at({x, 5 + 0.3f * static_cast<float>(i % 3), random.between(-0.6f, 0.6f)}, vec3(0.25f),
-                                      turned({0, 1, 0}, random.between(0, 90) * degrees)));
+        const vec4 turn = turned({0, 1, 0}, random.between(0, 90) * degrees);
+        const float z = random.between(-0.6f, 0.6f);
+        scene.bodies.push_back(box_at({x, 5 + 0.3f * static_cast<float>(i % 3), z}, vec3(0.25f), turn));
     }
     const Claim carried =
         at_most("crates that fell off", 0, "", "below the middle of the banks' height at the end", [crates](const Trace& trace) {
@@ -189,7 +190,7 @@ DemoScene ragdolls(const DemoOptions& options) {
         const std::size_t layer = i / (side * side), row = i / side % side, column = i % side;
         const auto place = [&](std::size_t k) { return 2.0f * (static_cast<float>(k) - 0.5f * static_cast<float>(side - 1)); };
         const vec3 at(place(column), 6 + 2.4f * static_cast<float>(layer), place(row));
-        const vec3 axis = glm::normalize(vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) + vec3(0.01f));
+        const vec3 axis = glm::normalize(random.vector(-1, 1) + vec3(0.01f));
         add_figure(scene, parts, at, turned(axis, random.between(0, 180) * degrees));
         top = std::max(top, at.y + 1);
     }

@@ -21,6 +21,11 @@ public:
     // 24 random bits convert to float exactly, so no rounding differs between machines.
     float unit() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
     float between(float low, float high) { return low + (high - low) * unit(); }
+    // z is drawn first. Draws in the arguments of one call have no order that all compilers keep.
+    vec3 vector(float low, float high) {
+        const float z = between(low, high), y = between(low, high), x = between(low, high);
+        return {x, y, z};
+    }
 
     // A uniformly distributed orientation, by rejection sampling in the 4-ball, since sin and cos differ between C
     // libraries.

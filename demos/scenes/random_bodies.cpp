@@ -14,7 +14,7 @@ constexpr float shrunk = 0.995f;  // margin against contacts between neighbours 
 }
 
 Body random_box(float reach, Random& random) {
-    vec3 half(random.between(0.5f, 1), random.between(0.5f, 1), random.between(0.5f, 1));
+    vec3 half = random.vector(0.5f, 1);
     half *= shrunk * reach / glm::length(half);
     Body body;
     body.shape = Box{half};

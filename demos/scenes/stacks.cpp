@@ -17,8 +17,8 @@ Scene column(int count, std::uint64_t seed, float half_extent = half, float offs
     scene.bodies.push_back(ground());
     Random random(seed);
     for (int i = 0; i < count; ++i) {
-        const vec3 position(random.between(-offset, offset), half_extent + 2 * half_extent * static_cast<float>(i),
-                            random.between(-offset, offset));
+        const float z = random.between(-offset, offset), x = random.between(-offset, offset);
+        const vec3 position(x, half_extent + 2 * half_extent * static_cast<float>(i), z);
         const vec4 turn = turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees);
         scene.bodies.push_back(box_at(position, vec3(half_extent), turn));
     }

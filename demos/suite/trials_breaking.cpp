@@ -100,9 +100,8 @@ DemoScene fragments(const DemoOptions& options) {
         }
         const vec3 cell(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
         body.position = (cell - 1.5f) * 2.0f;
-        body.velocity = body.position * -0.25f +
-                        vec3(random.between(-0.15f, 0.15f), random.between(-0.15f, 0.15f), random.between(-0.15f, 0.15f));
-        body.angular_velocity = vec3(random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f));
+        body.velocity = body.position * -0.25f + random.vector(-0.15f, 0.15f);
+        body.angular_velocity = random.vector(-0.5f, 0.5f);
         body.orientation = random.orientation();
         body.friction = 0.4f;
         body.fracture.emplace();

@@ -91,9 +91,9 @@ DemoScene tray(const DemoOptions& options) {
     Random random(options.seed);
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            const vec3 place(spacing * (static_cast<float>(column) - 0.5f * (columns - 1)) + random.between(-0.002f, 0.002f),
-                             2 * table.y + 2 * half.y + 0.5f,
-                             spacing * (static_cast<float>(row) - 0.5f * (rows - 1)) + random.between(-0.002f, 0.002f));
+            const float across = random.between(-0.002f, 0.002f), along = random.between(-0.002f, 0.002f);
+            const vec3 place(spacing * (static_cast<float>(column) - 0.5f * (columns - 1)) + along,
+                             2 * table.y + 2 * half.y + 0.5f, spacing * (static_cast<float>(row) - 0.5f * (rows - 1)) + across);
             scene.bodies.push_back(box_at(place, vec3(0.5f), turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees)));
         }
     }

@@ -72,9 +72,7 @@ DemoScene swarm(const DemoOptions& options) {
     for (int i = 0; i < side * side * side; ++i) {
         Body body = random_mixed(random.between(0.5f, 0.74f), random);
         const vec3 place = vec3(i % side, i / side % side, i / (side * side)) - vec3(0.5f * (side - 1));
-        const auto chance = [&](float most) {
-            return vec3(random.between(-most, most), random.between(-most, most), random.between(-most, most));
-        };
+        const auto chance = [&](float most) { return random.vector(-most, most); };
         body.position = place * cell;
         body.velocity = place * -0.8f + chance(2);
         body.angular_velocity = chance(3);

@@ -44,7 +44,8 @@ Compound stool() {
 void add_column(Scene& scene, const Compound& one, float height, int count, vec3 at, Random& random) {
     float yaw = random.between(0, 90);
     for (int k = 0; k < count; ++k) {
-        const vec3 off(random.between(-0.01f, 0.01f), 0, random.between(-0.01f, 0.01f));
+        const float z = random.between(-0.01f, 0.01f), x = random.between(-0.01f, 0.01f);
+        const vec3 off(x, 0, z);
         add_body(scene, one, at + off * height + vec3(0, height * static_cast<float>(k), 0), turned({0, 1, 0}, yaw * degrees));
         yaw += random.between(-5, 5);
     }

@@ -50,8 +50,8 @@ struct Pile {
 void add_pile(Scene& scene, const Pile& pile, vec3 foot, Random& random, std::vector<Stacked>& stacked) {
     for (int i = 0; i < pile.count; ++i) {
         const auto level = static_cast<float>(i);
-        const vec3 place(random.between(-pile.shift, pile.shift), pile.height * (level + 0.5f) + pile.gap * level,
-                         random.between(-pile.shift, pile.shift));
+        const float z = random.between(-pile.shift, pile.shift), x = random.between(-pile.shift, pile.shift);
+        const vec3 place(x, pile.height * (level + 0.5f) + pile.gap * level, z);
         const float yaw = pile.yaw + pile.step_yaw * level + random.between(-pile.turn, pile.turn);
         stacked.push_back({add_body(scene, pile.shape, foot + place, turned({0, 1, 0}, yaw)), pile.half});
     }

@@ -38,11 +38,12 @@ float some_speed(Random& random) {
 }
 // A random direction towards -z, whose lateral slopes are at most `sideways`.
 vec3 some_aim(float sideways, Random& random) {
-    const vec3 aim(random.between(-sideways, sideways), random.between(-sideways, sideways), -1);
-    return glm::normalize(aim);
+    const float y = random.between(-sideways, sideways), x = random.between(-sideways, sideways);
+    return glm::normalize(vec3(x, y, -1));
 }
 vec3 some_place(float half, Random& random) {
-    return vec3(random.between(-half, half), random.between(-half, half), 0);
+    const float y = random.between(-half, half), x = random.between(-half, half);
+    return vec3(x, y, 0);
 }
 
 struct Front {

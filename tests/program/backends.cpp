@@ -67,3 +67,26 @@ TEST_CASE("program: compare --flush-denormals needs no device, and tells both mo
     REQUIRE(refused.status == 2);
     REQUIRE(says(refused.errors, "--flush-denormals"));
 }
+
+TEST_CASE("program: compare --keep and --against tell without a device whether two machines agree", "[program]") {
+    const Place place;
+    const std::string start = "'" + (place / "before").string() + "'", record = "'" + (place / "right").string() + "'";
+    REQUIRE(run_scree("run chain --backend cpu --steps 20 -q --checkpoint " + start).status == 0);
+    const std::string step = "compare --resume " + start + " --steps 1 -q ";
+    REQUIRE(run_scree(step + "--keep " + record).status == 0);
+    const std::string no_driver = "VK_DRIVER_FILES=/nowhere VK_ICD_FILENAMES=/nowhere";
+    const Outcome equal = run_scree(step + "--threads 3 --against " + record, no_driver);
+    INFO(equal.errors << equal.output);
+    REQUIRE(equal.status == 0);
+    REQUIRE(says(equal.output, "agree in every bit of every stage over 1 steps after the first 20"));
+    std::string bytes = place.read("right");
+    bytes.back() ^= 1;
+    place.write("right", bytes);
+    const Outcome parted = run_scree(step + "--against " + record, no_driver);
+    REQUIRE(parted.status == 1);
+    REQUIRE(says(parted.output, "differ first in step 21 (counted from 1), stage "));
+    REQUIRE(says(parted.output, ", recorded 0x"));
+    const Outcome refused = run_scree("compare chain --steps 1 -q --against " + record, no_driver);
+    REQUIRE(refused.status == 2);
+    REQUIRE(says(refused.errors, "begins with another state"));
+}

@@ -150,6 +150,24 @@ TEST_CASE("program: more bodies than fit into memory are refused before they are
     require_refused(run_scree("run '" + file + "' --backend cpu --steps 1", "ulimit -v 400000;"), {file, "/bodies", "memory"});
 }
 
+TEST_CASE("program: a step that needs more memory than is allowed or free ends the run, with what takes it", "[program]") {
+    const Place place;
+    std::string text = R"({"bodies": [)";
+    for (int i = 0; i < 600; ++i)
+        text += std::string(i ? "," : "") + R"({"shape":{"box":{"half_extents":[1,1,1]}},"position":[0,5,0]})";
+    const std::string file = place.write("crowd.json", text + "]}"), run = "run '" + file + "' --backend cpu --steps 3 -q";
+    const auto require_ended = [&](const Outcome& ended, const char* allowed) {
+        INFO(ended.errors);
+        REQUIRE(ended.status == 1);
+        for (const char* words : {"step 1 is beyond memory: 179700", allowed, "alone may touch 599 others"})
+            CHECK(says(ended.errors, words));
+    };
+    require_ended(run_scree(run + " --memory 20M"), "0.02 GB are allowed");
+    require_refused(run_scree(run + " --memory much"), {"--memory", "much"});
+    if (scree::tests::sanitized) return;  // their shadow memory is beyond any limit
+    require_ended(run_scree(run, "ulimit -v 170000;"), "GB are allowed");
+}
+
 TEST_CASE("program: a frames folder, video or report that cannot be written is refused before the run", "[program]") {
     const Place place;
     const std::string file = place.write("file", "in the way");

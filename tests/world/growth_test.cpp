@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <memory>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/world.h"
@@ -90,4 +92,34 @@ TEST_CASE("more bodies are acted upon in a step than there was room for") {
         CAPTURE(i);
         REQUIRE(world.body(i).velocity.y > same.body(i).velocity.y);
     }
+}
+
+TEST_CASE("a step beyond the memory limit is refused before it allocates, with the step, the numbers and the body") {
+    Scene scene;
+    scene.gravity = vec3(0);
+    for (int i = 0; i < 400; ++i) {  // all in one place: 79,800 pairs
+        Body& body = scene.bodies.emplace_back();
+        body.shape = Box{vec3(0.5f)};
+        body.position = vec3(0.0001f * static_cast<float>(i), 0, 0);
+    }
+    scene.bodies[0].name = "first";
+    World world(scene, {}, 1);
+    const std::uint64_t before = world.state_hash();
+    world.set_memory_limit(10'000'000);
+    try {
+        world.step();
+        FAIL("no limit was felt");
+    } catch (const std::length_error& error) {
+        const std::string told = error.what();
+        CAPTURE(told);
+        CHECK(told.find("step 1 is beyond memory: 79800 pairs") != std::string::npos);
+        CHECK(told.find("0.01 GB are allowed") != std::string::npos);
+        CHECK(told.find("body 0 (\"first\") alone may touch 399 others") != std::string::npos);
+    }
+    CHECK(world.buffer_growths() == 0);
+    CHECK(world.state_hash() == before);
+    World limited(scene, {}, 1), free(scene, {}, 1);
+    limited.set_memory_limit(1'000'000'000);
+    for (World* one : {&limited, &free}) one->step(3);
+    CHECK(limited.state_hash() == free.state_hash());
 }

@@ -191,8 +191,8 @@ void note_pressing(Pass& pass) {
         }
     }
     for (uint32_t m = 0; m < pass.group.shape.bodies; ++m)
-        for (size_t lane = 0; lane < lanes && lane < pass.group.count; ++lane)
-            pass.members[m].record[lane][3] = __builtin_bit_cast(uint32_t, pass.members[m].normal_sum.v[lane]);
+        for (size_t lane = 0; lane < lanes && lane < pass.group.count; ++lane)  // of words: clang casts lane 0 of floats
+            pass.members[m].record[lane][3] = floatBitsToUint(pass.members[m].normal_sum).v[lane];
 }
 // Also of rows that no longer constrain.
 void clear_impulses(const Pass& pass, Bool struck) {

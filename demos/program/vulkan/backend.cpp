@@ -29,6 +29,10 @@ bool Backend::draws() const {
     return device && device->report().has_graphics;
 }
 
+bool Backend::has_own_memory() const {
+    return device && !device->report().is_processor;
+}
+
 std::string Backend::arithmetic_fault() const {
     return device ? check_arithmetic(device).fault : "";
 }

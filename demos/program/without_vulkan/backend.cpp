@@ -26,6 +26,10 @@ bool Backend::draws() const {
     return false;
 }
 
+bool Backend::has_own_memory() const {
+    return false;
+}
+
 std::string Backend::arithmetic_fault() const {
     return "";
 }
