@@ -76,7 +76,9 @@ struct Stepping {
 std::vector<std::byte> record_stages(const Scene& scene, const Settings& settings, int threads, int steps,
                                      std::span<const std::byte> from, const std::function<bool(int)>& progress) {
     Stepping stepping(scene, settings, threads, from);
-    ByteWriter out;
+    std::vector<std::byte> memory;
+    memory.reserve(1u << 20u);
+    ByteWriter out(std::move(memory));
     out.put_bytes(std::as_bytes(std::span(kind)));
     out.put(stepping.head(steps));
     stepping.run(steps, progress, [&](const Compared& compared) {

@@ -273,9 +273,9 @@ struct State {
         return presence.empty() || std::any_of(members.begin(), members.end(),
                                                [&](const physics::BlockBody& member) { return is_owned(member.body); });
     }
-    std::size_t bytes() const;                 // of all tables, as on a device
-    std::size_t bytes_of_loops() const;        // of what the CPU loops have beside the tables, by the length in use
-    std::size_t bytes_on_host() const;  // of all tables and long caches of a runner that is in_place(), at most
+    std::size_t bytes() const;           // of all tables, as on a device
+    std::size_t bytes_of_loops() const;  // of what the CPU loops have beside the tables, by the length in use
+    std::size_t bytes_on_host() const;   // of all tables and long caches of a runner that is in_place(), at most
     // What they would be after grow(), before it is called. `on_host`: those of bytes_on_host().
     std::size_t bytes_when_grown(bool on_host);
     std::size_t raw_bytes(Table table) const;  // of an allocated table

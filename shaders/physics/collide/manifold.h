@@ -68,14 +68,16 @@ LAW bool is_aligned(float cosine) {
 LAW bool is_patch_as_deep(ManifoldBuffer touch, float separation, float slop) {
     return touch.count > 1u && abs(deepest_of(touch) - separation) <= slop;
 }
-// The points along that unit axis from A to B, on which their least separation is known, m.
+// The points along that unit axis from A to B, on which the separation of the bodies is known, m: none is deeper.
 LAW ManifoldBuffer along_axis(ManifoldBuffer touch, vec3 axis, float separation, float margin) {
-    float change = separation - deepest_of(touch);
+    float slant = dot3(touch.manifold.normal, axis);
+    float change = positive(separation - slant * deepest_of(touch));
     ManifoldBuffer along = manifold_along(axis);
     for (uint k = 0u; k < 4u; ++k) {
         vec4 point = touch.manifold.points[k];
         uint feature = (touch.manifold.features >> (8u * k)) & 255u;
-        if (k < touch.count) along = with_point(along, vec3(point.x, point.y, point.z), point.w + change, feature, margin);
+        if (k < touch.count)
+            along = with_point(along, vec3(point.x, point.y, point.z), slant * point.w + change, feature, margin);
     }
     return along;
 }
