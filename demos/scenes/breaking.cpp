@@ -169,7 +169,7 @@ DemoScene glass(const DemoOptions& options) {
         pane.name = last ? "armoured pane" : "pane";
         pane.density = 2500;
         pane.friction = 0.4f;
-        pane.fracture = breaking(last ? 9000.0f : 260.0f, Cutting::splinters, 24,
+        pane.fracture = breaking(last ? 30000.0f : 260.0f, Cutting::splinters, 24,
                                  static_cast<std::uint32_t>(options.seed) + static_cast<std::uint32_t>(k));
         (last ? thick : thin.emplace_back()) = scene.bodies.size();
         scene.bodies.push_back(pane);
@@ -179,7 +179,7 @@ DemoScene glass(const DemoOptions& options) {
     ball.shape = Sphere{0.4f};
     ball.density = 7800;
     ball.position = {0.1f, 0.9f, -2};
-    ball.velocity = {0, 1.5f, 12};
+    ball.velocity = {0, 2.5f, 12};
     const std::size_t shot = scene.bodies.size();
     scene.bodies.push_back(ball);
     const vec3 low(-1.6f, 0, -1), high(1.6f, 2.1f, gap * (panes - 1) + 0.5f);

@@ -105,7 +105,10 @@ TEST_CASE("program: a timeline tells of buffers that grow, and has the stages of
     const std::vector<Slice>& main = tracks.at({0, 0});
     outermost(main);
     CHECK(count_of(main, "step") == 120);
-    CHECK(count_of(main, "end_step") == 3);
+    const auto grown = count_of(main, "grow buffers");
+    CHECK(grown > 0);
+    CHECK(count_of(main, "end_step") >= 3);  // one that is redone is there twice
+    CHECK(count_of(main, "end_step") <= 3 + grown);
     const std::string text = trace.dump();
     CHECK(says(text, "bodies broke"));
 }
