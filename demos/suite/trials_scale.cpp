@@ -113,7 +113,7 @@ DemoScene coins(const DemoOptions& options) {
     for (const auto& [shape, count, step_yaw] : {std::tuple<Shape, int, float>{Box{{0.5f, 0.02f, 0.1f}}, 10, 90 * degrees},
                                                  {Box{{0.5f, 0.025f, 0.15f}}, 4, 75 * degrees},
                                                  {as_hull(Box{{0.5f, 0.025f, 0.15f}}), 4, 90 * degrees}}) {
-        x += 1;
+        x += 1.3f;
         const float half = std::holds_alternative<Box>(shape) ? std::get<Box>(shape).half_extents.y : 0.025f;
         add_pile(scene, {shape, count, 2 * half, 0.15f, 0, 0.005f, degrees, step_yaw, 0.002f}, {x, 0, 0}, random, stacked);
     }
