@@ -51,6 +51,7 @@ Scene settled(const LoadedScene& subject, const SceneOptions& scene, const Bench
     }
     const Settings settings = subject.settings(scene);
     World world(subject.scene, settings, machine.make_runner());
+    limit_memory(world, machine);
     const auto steps = static_cast<int>(std::lround(options.settle * static_cast<double>(settings.rate)));
     Progress progress(fmt::format("settling {} with {} bodies", subject.name, subject.scene.bodies.size()), steps, "steps",
                       options.quiet);
@@ -105,6 +106,7 @@ Measurement measure(const SceneOptions& scene, const BenchOptions& options, cons
     const LoadedScene subject = load_subject(scene);
     return at_work([&] {
         World world(settled(subject, scene, options, machine), subject.settings(scene), machine.make_runner());
+        limit_memory(world, machine);
         const Samples samples =
             sample(world, fmt::format("{} with {} bodies", subject.name, subject.scene.bodies.size()), options);
         Measurement result;

@@ -22,8 +22,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Session::Session(SceneOptions options, MakeRunner make_runner)
-    : options_(std::move(options)), make_runner_(std::move(make_runner)), subject_(load_subject(options_)) {
+Session::Session(SceneOptions options, MakeRunner make_runner, Prepare prepare)
+    : options_(std::move(options)),
+      make_runner_(std::move(make_runner)),
+      prepare_(std::move(prepare)),
+      subject_(load_subject(options_)) {
     begin();
 }
 
@@ -41,6 +44,7 @@ void Session::begin() {
 void Session::begin_world() {
     world_.reset();  // frees memory before the next world allocates
     world_.emplace(subject_.scene, subject_.settings(options_), make_runner_());
+    if (prepare_) prepare_(*world_);
 }
 
 // The script runs before the user's commands of the same step, in replays too.

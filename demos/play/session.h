@@ -17,8 +17,9 @@ namespace scree::demos {
 class Session {
 public:
     using MakeRunner = std::function<std::unique_ptr<Runner>()>;
-    // Throws as load_subject and World do.
-    Session(SceneOptions options, MakeRunner make_runner);
+    using Prepare = std::function<void(World&)>;
+    // `prepare` is called with each world before its first step. Throws as load_subject and World do.
+    Session(SceneOptions options, MakeRunner make_runner, Prepare prepare = {});
 
     void reset();                        // restarts the scene with a new recording
     void open(const std::string& name);  // another demo or scene file; throws UsageError and keeps the current one
@@ -60,6 +61,7 @@ private:
 
     SceneOptions options_;
     MakeRunner make_runner_;
+    Prepare prepare_;  // may be empty
     LoadedScene subject_;
     std::optional<World> world_;
     Input input_;

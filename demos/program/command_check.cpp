@@ -8,6 +8,7 @@
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
+#include "demos/program/loaded_scene.h"
 #include "demos/program/options.h"
 #include "demos/program/output_check.h"
 #include "demos/program/progress.h"
@@ -43,7 +44,8 @@ std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const B
         DemoOptions size = suite_size(*demo);
         size.offset = options.scene.offset;
         size.seed = options.scene.seed;
-        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell, options.settings); });
+        const auto prepare = [&](World& world) { limit_memory(world, machine); };
+        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell, options.settings, prepare); });
         progress.reset();
         if (is_interrupted()) {
             say("scree: interrupted in {}\n", demo->name);

@@ -394,7 +394,7 @@ int run(RunOptions options) {
         options.exchange ? make_distributed_runner(options.exchange, options.machine.threads) : machine.make_runner();
     if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     World world = world_of(subject, options, subject.settings(options.scene), std::move(runner), vary);
-    if (!options.exchange) limit_memory(world, machine);
+    limit_memory(world, machine);
     report.copies = options.copies.copies;
     report.varied = options.copies.vary;
     if (options.resumed) {
@@ -546,12 +546,6 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->trajectory);
     add_options(*command, options->animation);
     add_options(*command, options->trace);
-    command
-        ->add_option_function<std::string>(
-            "--memory", [options](const std::string& word) { options->machine.memory = count_of(word, "--memory"); },
-            "Bytes that the tables of steps may take, such as 2G: a step that needs more ends the run, saying what takes it. "
-            "Default: what is free.")
-        ->group("Backend");
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
     command->add_option(

@@ -86,6 +86,12 @@ void add_options(CLI::App& command, MachineOptions& options) {
     command.add_option("--threads", options.threads, "Worker threads for --backend cpu (0: one per core). Default: 0.")
         ->check(CLI::Range(0, 1024))
         ->group("Backend");
+    command
+        .add_option_function<std::string>(
+            "--memory", [&options](const std::string& word) { options.memory = count_of(word, "--memory"); },
+            "Bytes that the tables of steps may take, such as 2G: a step that needs more is refused, saying what takes it. "
+            "Default: what is free.")
+        ->group("Backend");
     command.add_flag("--validate", options.validate, "Check every Vulkan call with the validation layers (slow).")
         ->group("Backend");
 }

@@ -34,11 +34,13 @@ DemoOptions suite_size(const Demo& demo) {
 }
 
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
-                  const std::function<bool(long, long)>& progress, Settings settings) {
+                  const std::function<bool(long, long)>& progress, Settings settings,
+                  const std::function<void(World&)>& prepare) {
     const auto start = std::chrono::steady_clock::now();
     const DemoScene scene = build(demo, options);
     settings.sleeping = scene.sleeping;
     World world(scene.scene, settings, std::move(runner));
+    if (prepare) prepare(world);
     Recorder recorder(world, scene.promise, static_cast<double>(scene.seconds), scene.before_step);
     const long steps = std::max(1L, std::lround(static_cast<double>(scene.seconds) * static_cast<double>(settings.rate)));
     bool whole = true;

@@ -25,9 +25,10 @@ struct Outcome {
 DemoOptions suite_size(const Demo& demo);
 
 // Runs a demo with these settings (whether bodies sleep is the demo's) to its end, or until `progress` (arguments: steps done,
-// steps in all) returns false; then there are no rows.
+// steps in all) returns false; then there are no rows. `prepare` is called with the world before its first step.
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
-                  const std::function<bool(long, long)>& progress = {}, Settings settings = {});
+                  const std::function<bool(long, long)>& progress = {}, Settings settings = {},
+                  const std::function<void(World&)>& prepare = {});
 
 struct Kept {
     std::size_t kept = 0, of = 0;  // claims that passed, and all

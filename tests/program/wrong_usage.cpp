@@ -164,6 +164,10 @@ TEST_CASE("program: a step that needs more memory than is allowed or free ends t
     };
     require_ended(run_scree(run + " --memory 20M"), "0.02 GB are allowed");
     require_refused(run_scree(run + " --memory much"), {"--memory", "much"});
+    require_ended(run_scree("bench '" + file + "' --backend cpu --steps 1 -q --memory 20M"), "0.02 GB are allowed");
+    const Outcome checked = run_scree("check calm --backend cpu -q --memory 1k");
+    CHECK(checked.status == 1);
+    CHECK(says(checked.errors, "is beyond memory"));
     if (scree::tests::sanitized) return;  // their shadow memory is beyond any limit
     require_ended(run_scree(run, "ulimit -v 170000;"), "GB are allowed");
 }

@@ -10,6 +10,7 @@
 #include "demos/film/pictures.h"
 #include "demos/film/style.h"
 #include "demos/program/interrupt.h"
+#include "demos/program/loaded_scene.h"
 #include "demos/program/option_parsing.h"
 #include "host/files/file.h"
 #include "host/pictures/image.h"
@@ -60,7 +61,8 @@ host::Camera camera_of(const OrbitCamera& eye) {
 Viewer::Viewer(const ViewOptions& options, const host::Display& display, Backend machine)
     : options_(options),
       machine_(std::move(machine)),
-      session_(options.scene, [this] { return machine_.make_runner(); }),
+      session_(
+          options.scene, [this] { return machine_.make_runner(); }, [this](World& world) { limit_memory(world, machine_); }),
       interaction_(session_, options.extent),
       window_(display, machine_.screen, "scree", options.extent.width, options.extent.height),
       detail_(machine_.screen->report().is_processor) {
