@@ -54,7 +54,7 @@ TEST_CASE("a device file is written in place") {
     REQUIRE(std::filesystem::is_character_file("/dev/null"));
 }
 
-TEST_CASE("of a regular file at most as many bytes as asked for are read; what is none is refused at once") {
+TEST_CASE("of a regular file at most as many bytes as asked for are read, and what is none is refused at once") {
     const TemporaryFolder folder;
     write_atomically(folder.path() / "file", "four");
     REQUIRE(read_regular(folder.path() / "file", 4) == "four");

@@ -263,7 +263,7 @@ TEST_CASE("stages that feed each other through a barrier run in order") {
     REQUIRE(got == std::vector<std::uint32_t>(count, 0));
 }
 
-TEST_CASE("equal pipelines of a device are one, whoever made the first; others are not") {
+TEST_CASE("equal pipelines of a device are one, whoever made the first, and others are not") {
     const Watched device;
     VkPipeline first;
     {
