@@ -27,7 +27,7 @@ Impulse impulse_of(float now, float before) {
 
 // The first normal impulse after momentum of 0.5.
 float after(float now, float before) {
-    return with_momentum(impulse_of(now, before), 1, vec4(0.5f)).normal.x;
+    return with_momentum(impulse_of(now, before), 1, vec4(0.5f), vec4(0)).normal.x;
 }
 
 // A column awake for 20 s, in metres of sag of the topmost box.
@@ -62,11 +62,20 @@ TEST_CASE("contact momentum extrapolates the change of an impulse that lasts") {
     CHECK(after(1, 4) == 0);  // contacts never pull
     CHECK(after(2, 0) == 2);  // new points have no history
     CHECK(after(0, 2) == 0);  // points that have let go stay so
-    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).solved_normal.x == 3);
-    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).normal.y == 3);  // not a point of this contact
+    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f), vec4(0)).solved_normal.x == 3);
+    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f), vec4(0)).normal.y == 3);  // not a point of this contact
     Impulse struck = impulse_of(3, 2);
     struck.impact.x = 1;
-    CHECK(with_momentum(struck, 1, vec4(0.5f)).normal.x == 3);  // impacts are exact
+    CHECK(with_momentum(struck, 1, vec4(0.5f), vec4(0)).normal.x == 3);  // impacts are exact
+}
+
+TEST_CASE("contact momentum restarts at a point that parts while its impulse falls") {
+    const auto restarted = [](float now, float before) {
+        return with_momentum(impulse_of(now, before), 1, vec4(0.5f), vec4(1)).normal.x;
+    };
+    CHECK(restarted(2, 3) == 0);
+    CHECK(restarted(3, 2) == 3.5f);
+    CHECK(restarted(2, 2) == 2);
 }
 
 TEST_CASE("contact momentum fades where mass is split among many contacts, and where a body overhangs its contact") {

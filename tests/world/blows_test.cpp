@@ -91,8 +91,9 @@ double greatest_energy(const Blow& blow, std::uint32_t seed) {
 
 // What is left are light bodies crushed between the two, which push out what has sunk into them, and what arrives in the last
 // substep of a step or so fast that it would be through in one. Measured: 8 of 480 blows gain with restitution 0 (up to 2.1
-// times), 2 with 0.5 (1.54), 1 with 1 (1.53). Before contacts that meet within a substep waited for the next one to be counted,
-// and what is under a blow did not rebound, one in twelve gained, up to 260 times.
+// times), none with 0.5 and 1 (1.0098 at most; before impulses restarted, 2 and 1, up to 1.54 times). Before contacts that meet
+// within a substep waited for the next one to be counted, and what is under a blow did not rebound, one in twelve gained, up to
+// 260 times.
 TEST_CASE("a heavy body that falls upon a light one on several supports leaves with no more energy than it brought") {
     for (const float restitution : {0.0f, 0.5f, 1.0f}) {
         int gained = 0, blows = 0;
@@ -110,7 +111,61 @@ TEST_CASE("a heavy body that falls upon a light one on several supports leaves w
                         }
         CAPTURE(restitution, gained, blows, worst);
         CHECK(worst > 0.99);
-        CHECK(worst < (restitution == 0 ? 3.0 : 2.0));
-        CHECK(gained <= (restitution == 0 ? 12 : restitution < 1 ? 3 : 5));
+        CHECK(worst < (restitution == 0 ? 3.0 : 1.02));
+        CHECK(gained <= (restitution == 0 ? 12 : 0));
     }
+}
+
+namespace {
+
+// The speed with which the uppermost of a column of light bodies and a heavy one, which falls onto it without restitution, rises
+// again, of that of the fall.
+double rebound(int light, float ratio, float speed, bool balls, std::uint32_t seed) {
+    tests::Noise noise(seed);
+    Scene scene;
+    scene.bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
+    const float gap = 0.3f, yaw = noise();
+    for (int i = 0; i <= light; ++i) {
+        Body body;
+        if (balls)
+            body.shape = Sphere{0.5f};
+        else
+            body.shape = Box{vec3(0.5f)};
+        body.position = {0.002f * noise(), static_cast<float>(i) + 0.5f + (i == light ? gap : 0), 0.002f * noise()};
+        body.orientation = {0, std::sin(yaw + 0.01f * noise()), 0, std::cos(yaw)};
+        body.orientation = glm::normalize(body.orientation);
+        body.rolling_resistance = 0.05f;
+        if (i == light) body.density *= ratio;
+        scene.bodies.push_back(body);
+    }
+    scene.bodies.back().velocity.y = -speed;
+    Settings settings;
+    settings.sleeping = false;
+    World world(scene, settings, 1);
+    float fastest = 0;
+    for (int step = 0; step < 90; ++step) {
+        world.step();
+        fastest = std::max(fastest, world.bodies().back().velocity.y);
+    }
+    return static_cast<double>(fastest / std::sqrt(speed * speed + 2 * 9.81f * gap));
+}
+
+}  // namespace
+
+// The impulses of a blow converge in several substeps, and restart when what they have stopped leaves (contact_momentum.h).
+// Measured: 0.19 in the mean, 0.57 at worst; without restarts 0.52 and 0.72.
+TEST_CASE("what falls upon lighter bodies without restitution hardly rises again") {
+    double sum = 0, worst = 0;
+    int falls = 0;
+    for (const bool balls : {false, true})
+        for (const float ratio : {1.0f, 3.0f, 10.0f, 30.0f, 100.0f})
+            for (const float speed : {0.0f, 2.0f, 5.0f, 12.0f})
+                for (const int light : {1, 2, 4}) {
+                    const double part = rebound(light, ratio, speed, balls, static_cast<std::uint32_t>(++falls));
+                    sum += part;
+                    worst = std::max(worst, part);
+                }
+    CAPTURE(sum / falls, worst);
+    CHECK(sum / falls < 0.25);
+    CHECK(worst < 0.65);
 }

@@ -20,6 +20,14 @@
 // pillars 20 never came to rest, moving at up to 0.12 m/s (4 without momentum). So a point's momentum is scaled by its
 // lever ratio, the part that rotation has in the point's inverse effective mass relative to that of translation: 3 at the
 // corner of a cube, 0.03 under such a pillar. With that, as many come to rest as without momentum.
+//
+// Restart (O'Donoghue, Candes, Adaptive restart for accelerated gradient schemes, Found. Comput. Math. 15, 2015): after a blow
+// the iteration converges in the more substeps the lighter the struck bodies are, and its impulses, kept from substep to substep,
+// are a spring without damping: greatest when the heavy body has stopped, they throw it back while they fall. So a point that
+// parts while the impulse of its contact falls begins the next substep with none. (Without, a box that fell upon boxes of a third
+// to a hundredth of its mass left with half of its speed, though nothing was elastic. Of 120 columns of 1 to 4 light boxes or
+// balls, hit by 1 to 100 times their mass at 1 to 10 m/s, the heavy body rose by 0.60 m in the mean, now by 0.076 m, and went no
+// deeper. With a restart of points that part whether the impulse falls or not, it went 4 times as deep.)
 #ifndef SCREE_PHYSICS_CONTACT_MOMENTUM_H
 #define SCREE_PHYSICS_CONTACT_MOMENTUM_H
 
@@ -33,6 +41,11 @@ LAWS_BEGIN
 CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 56 mm/s
 CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split into more parts, as under a heap, get less
 CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
+// Restarts: a point that parts faster than what gravity adds to a speed in so many substeps, of a contact whose impulse falls by
+// what would change the lighter body's velocity by more than gravity does in so many. With 2 and 10 the heavy bodies rose by
+// 0.085 m. (With a threshold for the impulse in place of its fall, columns under 300 times their boxes' weight fell.)
+CONSTANT float PARTING = 2.0f;
+CONSTANT float FALLING = 5.0f;
 
 // (r x n) . I^-1 (r x n) m of one body; 1 for a body that does not move.
 LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
@@ -51,15 +64,17 @@ LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b, Paramet
 }
 
 // After the relax pass: the impulses with which the next substep begins, by the momentum of each point. Impacts, new points
-// and points that let go have none.
-LAW Impulse with_momentum(Impulse impulse, uint count, vec4 momentum) {
+// and points that let go have none. `restarting`: 1 for a point that restarts if its own impulse falls, too, else 0.
+LAW Impulse with_momentum(Impulse impulse, uint count, vec4 momentum, vec4 restarting) {
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < count;
         if (none(there)) break;
         float now = impulse.normal[k], before = impulse.solved_normal[k];
         bool lasts = there && impulse.impact[k] == 0.0f && now > 0.0f && before > 0.0f;
         impulse.solved_normal[k] = choose(there, now, before);
-        impulse.normal[k] = choose(lasts, positive(flush_tiny(now + momentum[k] * (now - before))), now);
+        bool restarts = restarting[k] > 0.0f && now < before;
+        float next = choose(restarts, 0.0f, positive(flush_tiny(now + momentum[k] * (now - before))));
+        impulse.normal[k] = choose(lasts, next, now);
     }
     return impulse;
 }

@@ -182,7 +182,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     float arrival = arrival_speed(c, impulse, v, a, b, last, parameters);
     float fastest = longest_wait(c, parameters);
     float normal = 0.0f;
-    vec4 momentum = vec4(0.0f);
+    vec4 momentum = vec4(0.0f), parting = vec4(0.0f);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
@@ -198,13 +198,16 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         JacobianRow row = jacobian_row(r, c.normal, a, b);
         float mass = mass_along(row, a, b);
         momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
+        parting[k] = choose(acts && speed > PARTING * fall_speed(parameters), 1.0f, 0.0f);
         acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
         float after = choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target))));
         impulse.normal[k] = choose(acts, after, before);
         normal = choose(acts, normal + after, normal);
         v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
     }
-    result.impulse = with_momentum(impulse, point_count(c), momentum);
+    float fall = (solved_impulse(impulse) - normal) * larger(a.inverse_mass, b.inverse_mass);
+    bool falls = fall > FALLING * fall_speed(parameters);
+    result.impulse = with_momentum(impulse, point_count(c), momentum, choose(falls, parting, vec4(0.0f)));
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, false, parameters);
 }
