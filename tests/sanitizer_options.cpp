@@ -18,6 +18,8 @@ const char* __lsan_default_suppressions() {
            "leak:swrast_dri\n"
            "leak:libX11\n"
            "leak:libxcb\n"
+           "leak:mca_\n"
+           "leak:libpmix\n"
            "leak:libmpi\n"
            "leak:libopen-pal\n"
            "leak:libopen-rte\n";
