@@ -40,7 +40,7 @@ LAWS_BEGIN
 
 CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 56 mm/s
 CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split into more parts, as under a heap, get less
-CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
+CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller; with 1 stacks creep on a turntable
 // Restarts: a point that parts faster than what gravity adds to a speed in so many substeps, of a contact whose impulse falls by
 // what would change the lighter body's velocity by more than gravity does in so many. With 2 and 10 the heavy bodies rose by
 // 0.085 m. (With a threshold for the impulse in place of its fall, columns under 300 times their boxes' weight fell.)
