@@ -1,6 +1,6 @@
 // Height fields of MJCF: heights where MuJoCo has them; meshes of scene files stay in their folder.
 #include <algorithm>
-#include <cstring>
+#include <span>
 
 #include "compute/scene/mesh.h"
 #include "compute/world.h"
@@ -18,9 +18,12 @@ std::string field(const std::string& asset, const std::string& geom = "") {
 }
 
 std::string little_endian(const std::vector<std::int32_t>& size, const std::vector<float>& heights) {
-    std::string bytes(4 * (size.size() + heights.size()), '\0');
-    std::memcpy(bytes.data(), size.data(), 4 * size.size());
-    std::memcpy(bytes.data() + 4 * size.size(), heights.data(), 4 * heights.size());
+    std::string bytes;
+    const auto add = [&](std::span<const std::byte> part) {
+        bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
+    };
+    add(std::as_bytes(std::span(size)));
+    add(std::as_bytes(std::span(heights)));
     return bytes;
 }
 
