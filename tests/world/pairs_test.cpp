@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <span>
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/step/state.h"
@@ -129,7 +129,7 @@ TEST_CASE("rows that are near each other, kept from step to step, give the pairs
             const std::vector<physics::Pair> found = pairs_of(kept, kept_runner, false),
                                              expected = pairs_of(anew, anew_runner, true);
             REQUIRE(found.size() == expected.size());
-            REQUIRE(std::memcmp(found.data(), expected.data(), found.size() * sizeof(physics::Pair)) == 0);
+            REQUIRE(std::ranges::equal(std::as_bytes(std::span(found)), std::as_bytes(std::span(expected))));
             REQUIRE_FALSE(anew.near_rows.is_listed);
             listed += kept.near_rows.is_listed;
         }
