@@ -164,6 +164,7 @@ private:
                         finite({body.inverse_mass, body.friction, body.restitution, body.rolling_resistance, body.gravity_scale,
                                 body.linear_damping, body.angular_damping}),
                     "row", row, "has sizes, masses or a material that are not finite");
+            require(body.restitution >= 0 && body.restitution <= 1, "row", row, "has a restitution that is not between 0 and 1");
             check_shape(row, body);
             const bool large = physics::is_large(body) || body.shape == physics::SHAPE_NONE;
             require(large || (body.shape != physics::SHAPE_PLANE && reach_of(row, body) * p_.inverse_cell < most_cells), "row",

@@ -47,7 +47,7 @@ DemoScene seesaw(const DemoOptions&) {
                                        [tipped](const Trace& trace) { return slant(trace.end[tipped]); });
     const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
     return awake({std::move(scene), view_of(low, high, 22, 20), low, high, 6,
-                  Promise(stays_level, heavier_down, penetration_below(0.0008))});
+                  Promise(stays_level, heavier_down, penetration_below(0.00055))});
 }
 
 namespace {

@@ -33,7 +33,7 @@ DemoScene bounce(const DemoOptions&) {
     }
     const vec3 low(-9, 0, -0.5f), high(9, 5.7f, 0.5f);
     Promise promise(all_bounce("bounces of spheres, e = 0, of the fall", dead, 0.006),
-                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 0.009),
+                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 0.003),
                     all_bounce("bounces of spheres, e = 0.5", half, 0.0018),
                     all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 0.0018),
                     all_bounce("five bounces of spheres, e = 1", full, 0.0035));

@@ -138,7 +138,7 @@ DemoScene rollmesh(const DemoOptions& options) {
     ball.velocity = velocity;
     ball.angular_velocity = glm::cross(vec3(0, 1, 0), velocity) / radius;
     scene.bodies.push_back(ball);
-    const Claim straight = at_most("greatest deviation from a straight line", 0.00054, "m",
+    const Claim straight = at_most("greatest deviation from a straight line", 0.00035, "m",
                                    "of the ball's centre at every step, up and sideways", [start, velocity](const Trace& trace) {
                                        const glm::dvec3 along = glm::normalize(glm::dvec3(velocity));
                                        double most = 0;

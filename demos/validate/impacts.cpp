@@ -149,6 +149,29 @@ double rise(const Lab& lab, Body body, double restitution, double half_height) {
     return top;
 }
 
+// The spin, of the speed by the radius, of a ball without spin that strikes a plane at a slant.
+constexpr double slant_friction = 0.3, slant_restitution = 0.8;
+double slant_theory(double degrees) {
+    const double slant = degrees * pi / 180;
+    return 2.5 * std::min(slant_friction * (1 + slant_restitution) * std::sin(slant), 2.0 / 7 * std::cos(slant));
+}
+double slant_spin(const Lab& lab, double degrees) {
+    constexpr float speed = 10, radius = 0.25f;
+    const auto slant = static_cast<float>(degrees * pi / 180);
+    Scene scene;
+    scene.gravity = vec3(0);
+    scene.bodies = {{.name = "ground", .motion = Motion::fixed, .shape = Plane{}},
+                    ball_at({0, radius + 0.1f, 0}, speed * vec3(std::cos(slant), -std::sin(slant), 0))};
+    scene.bodies[1].shape = Sphere{radius};
+    for (Body& body : scene.bodies) {
+        body.friction = static_cast<float>(slant_friction);
+        body.restitution = static_cast<float>(slant_restitution);
+    }
+    World world = lab.world(scene);
+    for (int i = 0; i < lab.steps(1) && world.body(1).velocity.y < 0; ++i) world.step();
+    return static_cast<double>(-world.body(1).angular_velocity.z * radius / speed);
+}
+
 // The speed along the blow with which two welded balls, the upper at an angle to it, leave a block, of that with which they
 // came; in empty space. A rigid body of two mass points m with own inertia 2/5 m r^2 each.
 constexpr double joined_restitution = 0.7;
@@ -207,6 +230,17 @@ std::vector<Experiment> impact_experiments() {
     };
     bounces("bounce-ball", "a ball bounces on a plane", Sphere{0.3f}, 0.3);
     bounces("bounce-box", "a box bounces flat on a plane", Box{{0.4f, 0.2f, 0.3f}}, 0.2);
+    all.push_back({"bounce-slant",
+                   "a ball that strikes a plane at a slant takes spin",
+                   "w R / v = 5/2 min(mu (1 + e) sin s, 2/7 cos s), mu = 0.3, e = 0.8",
+                   "impulse of Coulomb friction on a rigid ball, up to rolling (Cross, Am. J. Phys. 70, 2002)",
+                   "slant s, degrees",
+                   "spin times radius, of the speed",
+                   0.01,
+                   0.002,
+                   {10, 20, 30, 45, 60, 75, 85},
+                   slant_theory,
+                   slant_spin});
     all.push_back({"billiard",
                    "a ball struck off centre leaves along the line of centres",
                    "angle = asin(b / 2R)",

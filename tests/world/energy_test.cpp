@@ -148,14 +148,22 @@ TEST_CASE("a gas of elastic balls in a box keeps its energy for ten seconds, how
 }
 
 // A ball between two facets strikes both along nearly parallel normals. Without debts (restitution.h) its energy grew to 2.8
-// and 3.0 times with 64 and 128 facets; measured: at most 1.02 up to 32 facets, 1.07 with 64, 1.14 with 128.
+// and 3.0 times with 64 and 128 facets. Measured, the mean of ten starts and the worst: 1.001 and 1.01 with 8, 1.013 and 1.05
+// with 32, 1.05 and 1.09 with 64, 1.12 and 1.25 with 128.
 TEST_CASE("an elastic ball in a trough of facets gains little energy") {
-    for (const auto& [facets, gain] : {std::pair(8, 0.02), {32, 0.03}, {64, 0.1}, {128, 0.2}}) {
-        for (const double start : {0.6, 0.87}) {
+    struct Case {
+        int facets;
+        double mean, worst;
+    };
+    for (const auto& [facets, mean, worst] :
+         {Case{8, 1.003, 1.02}, Case{32, 1.02, 1.06}, Case{64, 1.07, 1.15}, Case{128, 1.15, 1.35}}) {
+        double sum = 0;
+        for (int i = 0; i < 10; ++i) {
+            const double start = 0.4 + 0.08 * i;
             Scene scene;
             const double pi = 3.14159265358979, radius = 2;
-            for (int i = 0; i < facets; ++i) {
-                const double angle = pi * ((i + 0.5) / facets - 0.5), out = radius + 0.3;
+            for (int k = 0; k < facets; ++k) {
+                const double angle = pi * ((k + 0.5) / facets - 0.5), out = radius + 0.3;
                 Body facet;
                 facet.shape = Box{{static_cast<float>(radius * std::tan(0.5 * pi / facets)), 0.3f, 1.0f}};
                 facet.motion = Motion::fixed;
@@ -181,13 +189,16 @@ TEST_CASE("an elastic ball in a trough of facets gains little energy") {
             };
             const double before = energy();
             double most = 0;
-            for (int i = 0; i < 1500; ++i) {
+            for (int step = 0; step < 1500; ++step) {
                 world.step();
                 most = std::max(most, energy() / before);
             }
             CAPTURE(facets, start, most);
-            CHECK(most < 1 + gain);
+            CHECK(most < worst);
+            sum += most;
         }
+        CAPTURE(facets, sum / 10);
+        CHECK(sum / 10 < mean);
     }
 }
 

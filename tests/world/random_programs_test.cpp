@@ -26,8 +26,9 @@ TEST_CASE("random programs give the same bits with any number of lanes and threa
             if (seed % 4 != static_cast<std::uint32_t>(lanes + threads) % 4 && std::getenv("SCREE_PROGRAMS") == nullptr) continue;
             INFO(threads << " threads, " << lanes << " lanes");
             tests::RandomProgram program = tests::random_program(seed);
-            const std::string parts =
-                tests::difference(program, scalar, [&] { return std::make_unique<ReferenceRunner>(threads, lanes); });
+            const std::string parts = tests::difference(program, scalar, [threads = threads, lanes = lanes] {
+                return std::make_unique<ReferenceRunner>(threads, lanes);
+            });
             if (!parts.empty()) FAIL_CHECK(parts);
         }
     }

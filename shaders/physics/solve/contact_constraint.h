@@ -39,8 +39,16 @@ LAW float twist_arm_of(BodyProperties a, BodyProperties b, uint count, float rea
     return choose(count == 1u, of_point, spread * reach);
 }
 
+// Where a point is when it meets, on the surface of the body that keeps it, m from the centre of A. Half way across the gap a
+// ball's friction would have a lever arm of more than its radius: balls that met the ground at 7 m/s took up to 25% too much
+// spin.
+LAW vec3 meeting_point(Contact contact, int k, bool on_b) {
+    float half_gap = 0.5f * positive(contact.points[k].w);
+    return xyz(contact.points[k]) + contact.normal * choose(on_b, half_gap, -half_gap);
+}
+
 // The centre of the friction patch: points that are still apart weigh less, so it moves smoothly as a body tips.
-LAW vec3 patch_centre(Contact contact, float speculative) {
+LAW vec3 patch_centre(Contact contact, float speculative, bool on_b) {
     vec3 centre = vec3(0.0f);
     float weights = 0.0f;
     float fade = reciprocal(speculative);
@@ -48,7 +56,7 @@ LAW vec3 patch_centre(Contact contact, float speculative) {
         bool there = uint(k) < contact.count;
         if (none(there)) break;
         float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
-        vec3 moment = xyz(contact.points[k]) * weight;
+        vec3 moment = meeting_point(contact, k, on_b) * weight;
         if (k > 0) moment = centre + moment;
         centre = choose(there, moment, centre);
         weights = choose(there, weights + weight, weights);
@@ -99,12 +107,12 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     float limit_a = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
     float limit_b = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
     c.slide_limit = choose(on_b, limit_a, choose(round, c.slide_limit, limit_b));
-    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters));
+    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters), on_b);
     float reach = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < contact.count;
         if (none(there)) break;
-        vec3 arm = xyz(contact.points[k]);
+        vec3 arm = meeting_point(contact, k, on_b);
         c = with_lever_arm(c, k, choose(there, choose(on_b, arm - contact.center_offset, arm), lever_arm(c, k)));
         reach = choose(there, reach + length3(arm - centre), reach);
     }
@@ -113,9 +121,9 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     if (none(round)) return c;
     c.radius_a = choose(round, ta.size.x, c.radius_a);
     c.radius_b = choose(round, tb.size.x, c.radius_b);
-    vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
-    vec3 core_a = centre - half_gap - contact.normal * c.radius_a;
-    vec3 core_b = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
+    vec3 half_gap = contact.normal * (0.5f * contact.points[0].w), middle = xyz(contact.points[0]);
+    vec3 core_a = middle - half_gap - contact.normal * c.radius_a;
+    vec3 core_b = (middle - contact.center_offset) + half_gap + contact.normal * c.radius_b;
     c = with_lever_arm(c, 0, choose(round, core_a, lever_arm(c, 0)));
     c.centre = choose(round, core_b, c.centre);
     return c;

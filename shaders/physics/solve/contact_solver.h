@@ -138,14 +138,40 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 LAW bool drives(Mass mass, Velocity velocity) {
     return mass.inverse_mass == 0.0f && dot3(velocity.linear, velocity.linear) + dot3(velocity.angular, velocity.angular) > 0.0f;
 }
-LAW float arrival_speed(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, float last, Parameters parameters) {
-    bool goes_on = last > 0.0f || normal_impulse(impulse) > 0.0f || drives(a, v.a) || drives(b, v.b);
+LAW float arrival_speed(Constraint c, VelocityPair v, Mass a, Mass b, float last, Parameters parameters) {
+    bool goes_on = last > 0.0f || drives(a, v.a) || drives(b, v.b);
     float least = choose(goes_on, 1.0e30f, ARRIVAL * fall_speed(parameters));
     return choose(c.restitution > 0.0f, 0.0f, least);
 }
 // The fastest approach that waits, m/s.
 LAW float longest_wait(Constraint c, Parameters parameters) {
     return choose(c.restitution > 0.0f, 1.0e30f, (2.0f * c.slide_limit) * parameters.inverse_h);
+}
+
+// Whether a contact without restitution arrives beside others: it approaches faster than what waits, and has borne less than what
+// stops it. In the biased pass shares of the mass that are over-relaxed overshoot, and the relax pass takes that back. What
+// overshoots in the relax pass is gone, so a contact that arrives there answers with its true share. (With over-relaxed shares,
+// boxes and balls that fell upon two to nine fixed boxes side by side rose with 13 to 25% of their speed in the mean, at worst
+// with 4.7 times of it; now with 0.1 to 0.7%, at worst 8%.)
+LAW bool arrives_among_others(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    bool arrives = larger(a.split, b.split) > 1.0f && !(c.restitution > 0.0f);
+    if (none(arrives)) return arrives;
+    LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
+    float speed = dot3(c.normal, velocity_at(r, v));
+    arrives = arrives && speed < -ARRIVAL * fall_speed(parameters);
+    if (none(arrives)) return arrives;
+    return arrives && normal_impulse(impulse) <= -mass_along(jacobian_row(r, c.normal, a, b), a, b) * speed;
+}
+LAW float true_split(float split, Parameters parameters) {
+    return choose(split > 1.0f, split * reciprocal(parameters.inverse_relaxation), split);
+}
+// The change of the split bodies' velocities, scaled.
+LAW VelocityPair scaled_change(VelocityPair before, VelocityPair after, float of_a, float of_b) {
+    after.a.linear = before.a.linear + (after.a.linear - before.a.linear) * of_a;
+    after.a.angular = before.a.angular + (after.a.angular - before.a.angular) * of_a;
+    after.b.linear = before.b.linear + (after.b.linear - before.b.linear) * of_b;
+    after.b.angular = before.b.angular + (after.b.angular - before.b.angular) * of_b;
+    return after;
 }
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
@@ -179,8 +205,15 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, state, debt);
     impulse = result.impulse;
     v = result.pair_velocity;
-    float arrival = arrival_speed(c, impulse, v, a, b, last, parameters);
+    float arrival = arrival_speed(c, v, a, b, last, parameters);
     float fastest = longest_wait(c, parameters);
+    float split_a = a.split, split_b = b.split;
+    VelocityPair before_arrival = v;
+    bool arriving = arrives_among_others(c, impulse, v, a, b, parameters);
+    if (!none(arriving)) {
+        a.split = choose(arriving, true_split(split_a, parameters), split_a);
+        b.split = choose(arriving, true_split(split_b, parameters), split_b);
+    }
     float normal = 0.0f;
     vec4 momentum = vec4(0.0f), parting = vec4(0.0f);
     for (int k = 0; k < 4; ++k) {
@@ -199,11 +232,17 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         float mass = mass_along(row, a, b);
         momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
         parting[k] = choose(acts && speed > PARTING * fall_speed(parameters), 1.0f, 0.0f);
-        acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+        acts = acts && !(c.restitution > 0.0f && waits && before <= -IMPACT_DISTANCE * mass * speed);
         float after = choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target))));
         impulse.normal[k] = choose(acts, after, before);
         normal = choose(acts, normal + after, normal);
         v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
+    }
+    if (!none(arriving)) {
+        float of_a = split_a * reciprocal(a.split), of_b = split_b * reciprocal(b.split);
+        v = choose(arriving, scaled_change(before_arrival, v, of_a, of_b), v);
+        a.split = split_a;
+        b.split = split_b;
     }
     float fall = (solved_impulse(impulse) - normal) * larger(a.inverse_mass, b.inverse_mass);
     bool falls = fall > FALLING * fall_speed(parameters);
@@ -242,7 +281,8 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
 }
 
 // Whether the contact counts in mass splitting, 1 or 0: a point bears a normal impulse, or will within the next
-// substep, gravity included.
+// substep, gravity included. What arrives without restitution counts two substeps ahead: in the last substep of a step it acts
+// before it meets (arrival_speed()), and uncounted each of several supports would answer with the whole mass.
 LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     bool carrying = false;
     bool open = !(impulse.slide_distance > c.slide_limit);
@@ -254,7 +294,9 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
         open = open && !carrying;
         if (none(open)) break;
         float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
-        carrying = carrying || (open && impulse.separation[k] + parameters.h * speed < fall);
+        bool arrives = speed < -ARRIVAL * fall_speed(parameters) && !(c.restitution > 0.0f);
+        float ahead = choose(arrives, 2.0f * parameters.h, parameters.h);
+        carrying = carrying || (open && impulse.separation[k] + ahead * speed < fall);
         open = open && !carrying;
     }
     return choose(carrying, 1.0f, 0.0f);
