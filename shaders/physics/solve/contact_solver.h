@@ -244,8 +244,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         a.split = split_a;
         b.split = split_b;
     }
-    float fall = (solved_impulse(impulse) - normal) * larger(a.inverse_mass, b.inverse_mass);
-    bool falls = fall > FALLING * fall_speed(parameters);
+    float borne = solved_impulse(impulse), fall = borne - normal;
+    bool falls = fall > FALLING_PART * borne && fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
     result.impulse = with_momentum(impulse, point_count(c), momentum, choose(falls, parting, vec4(0.0f)));
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, false, parameters);
