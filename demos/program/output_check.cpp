@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
 
 #include "demos/program/exit_status.h"
+#include "host/files/partial_file.h"
 
 namespace scree::demos {
 
@@ -40,13 +40,11 @@ void require_writable_file(const char* option, const std::string& name) {
     if (!std::filesystem::is_directory(folder, ignored))
         refuse(fmt::format("there is no folder {}; make it first", folder.string()));
     // Create a file: checking permissions would miss a read-only file system.
-    std::string trial = (folder / ".scree-XXXXXX").string();
-    const int made = ::mkstemp(trial.data());
+    const int made = host::create_nameless(folder);
     if (made < 0) {
         refuse(fmt::format("no file can be made in the folder {}: {}; name another", folder.string(), std::strerror(errno)));
     }
     ::close(made);
-    ::unlink(trial.c_str());
 }
 
 void require_distinct(std::initializer_list<NamedOutput> outputs) {

@@ -128,11 +128,8 @@ struct ScratchFile::Impl {
 
 ScratchFile::ScratchFile(const std::filesystem::path& beside) : interior_(std::make_unique<Impl>()) {
     const std::filesystem::path folder = beside.has_parent_path() ? beside.parent_path() : ".";
-    std::string name = (folder / ".scree-XXXXXX").string();
     interior_->beside = beside;
-    const int made = ::mkstemp(name.data());
-    if (made >= 0) ::unlink(name.c_str());
-    interior_->file.emplace(beside, made);
+    interior_->file.emplace(beside, create_nameless(folder));
 }
 
 ScratchFile::~ScratchFile() = default;

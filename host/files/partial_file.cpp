@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -95,6 +96,15 @@ int create_partial(const std::filesystem::path& partial) {
     const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file >= 0) ::flock(file, LOCK_EX | LOCK_NB);  // without locks here, the process in its name protects it
     return file;
+}
+
+int create_nameless(const std::filesystem::path& folder) {
+    const int made = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;
+    std::string name = (folder / ".scree-XXXXXX").string();
+    const int named = ::mkostemp(name.data(), O_CLOEXEC);
+    if (named >= 0) ::unlink(name.c_str());
+    return named;
 }
 
 void remove_left_overs(const std::filesystem::path& folder) {

@@ -42,6 +42,10 @@ std::filesystem::path partial_name(const std::filesystem::path& target);
 // descriptor, or -1 with errno.
 int create_partial(const std::filesystem::path& partial);
 
+// An open file of a folder that has no name, and ends with its descriptor, or -1 with errno. (Where the file system knows no such
+// files it has a name for a moment.)
+int create_nameless(const std::filesystem::path& folder);
+
 // Removes "*.part-scree-PID-N" of processes that are gone from a folder; once per folder and process.
 void remove_left_overs(const std::filesystem::path& folder);
 

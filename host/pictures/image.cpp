@@ -15,6 +15,7 @@
 #include <string>
 
 #include "host/files/file.h"
+#include "host/files/partial_file.h"
 #include "host/pictures/png_encoder.h"
 
 namespace scree::host {
@@ -161,11 +162,9 @@ void require_writable_folder(const std::filesystem::path& folder) {
     if (error) throw ImageError(at.string() + ": the folder cannot be made: " + error.message());
     if (!std::filesystem::is_directory(at, error)) throw ImageError(at.string() + ": not a folder");
     // Create a file: checking permissions would miss a full or read-only file system.
-    std::string name = (at / ".scree-XXXXXX").string();
-    const int made = ::mkstemp(name.data());
+    const int made = create_nameless(at);
     if (made < 0) throw ImageError(at.string() + ": no file can be made in this folder: " + std::strerror(errno));
     ::close(made);
-    ::unlink(name.c_str());
 }
 
 }  // namespace scree::host

@@ -425,9 +425,9 @@ class Threads(unittest.TestCase):
                 "from scree import _progress\n"
                 "_progress.Bar.PATIENCE = 0\n"
                 "w = scree.World(scree.demo('pile', 1000), backend='cpu')\n"
-                "w.step(60, progress=True)\n")
+                "w.step(900, progress=True)\n")
         run = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, check=True)
-        self.assertIn(b"/60 steps", run.stderr)
+        self.assertIn(b"/900 steps", run.stderr)
         self.assertTrue(run.stderr.endswith(b"\r"))
 
 
