@@ -99,7 +99,8 @@ DemoScene shots(const DemoOptions& options) {
         const std::size_t piece = add_piece(i);
         Body shot = some_shot(i, random);
         const vec3 aim = some_aim(1, random);
-        shot.position = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.12f, 0.45f) / -aim.z);
+        const float before = random.between(0.12f, 0.45f) / -aim.z;
+        shot.position = front.middle(i) + some_place(0.2f, random) - aim * before;
         shot.velocity = aim * some_speed(random);
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
@@ -127,9 +128,11 @@ DemoScene joinedshots(const DemoOptions& options) {
         const std::size_t piece = add_piece(i);
         const vec3 aim = some_aim(0.5f, random);
         const vec3 velocity = aim * some_speed(random);
-        const vec3 spin = random.between(-20, 20) * physics::rotate(random.orientation(), vec3(1, 0, 0));
+        const vec3 axis = physics::rotate(random.orientation(), vec3(1, 0, 0));
+        const vec3 spin = random.between(-20, 20) * axis;
         const vec3 along = -some_aim(1, random);  // the first link is the nearest to the wall
-        const vec3 start = front.middle(i) + some_place(0.05f, random) - aim * (random.between(0.15f, 0.45f) / -aim.z);
+        const float before = random.between(0.15f, 0.45f) / -aim.z;
+        const vec3 start = front.middle(i) + some_place(0.05f, random) - aim * before;
         for (std::size_t k = 0; k < 2 + i % 4; ++k) {
             Body link = some_shot(i, random);
             link.orientation = vec4(0, 0, 0, 1);

@@ -56,7 +56,8 @@ double collide_tumbling(const Lab& lab, double speed) {
     const auto v = static_cast<float>(speed);
     for (std::size_t pair = 0; pair < 90; ++pair) {
         const vec3 middle(0, 0, (10 + v) * static_cast<float>(pair)), along = any_direction(random);
-        const vec3 aside = 0.25f * part(random) * glm::normalize(glm::cross(along, any_direction(random)));
+        const vec3 across = glm::normalize(glm::cross(along, any_direction(random)));
+        const vec3 aside = 0.25f * part(random) * across;
         const vec3 apart = aside + (1.25f + 0.025f * v * part(random)) * along;
         for (const float side : {1.0f, -1.0f}) {
             Body body = ball_at(middle + side * apart, -0.5f * side * v * along);
