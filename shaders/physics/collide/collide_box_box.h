@@ -153,12 +153,17 @@ LAW ManifoldBuffer manifold_of_boxes(BodyProperties a, Pose pose_a, BodyProperti
         touch = manifold_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
         if (of_b) touch = flipped(touch, pose_a.position - pose_b.position);
     }
-    if (aligned && is_patch_as_deep(touch, axes.edge.separation, slop))
-        return along_axis(touch, rotate(pose_a.orientation, axis), axes.edge.separation, margin);
+    ManifoldBuffer along = empty_manifold();
+    if (aligned) {
+        along = along_axis(touch, rotate(pose_a.orientation, axis), axes.edge.separation, margin);
+        if (is_patch_as_deep(along, axes.edge.separation, PATCH_SHORTFALL * slop)) return along;
+    }
     // If the clipped patch is not as deep as the face planes say, use an edge axis that is no worse.
     if (is_edge || (edge_serves && deepest_of(touch) > best_face + slop)) {
         ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, axes.edge, margin);
-        if (by_edges.count > 0u) touch = by_edges;
+        // Ends of edges that are apart have a normal of their own.
+        bool of_axis = is_aligned(dot3(by_edges.manifold.normal, along.manifold.normal));
+        if (by_edges.count > 0u) touch = of_axis ? with_patch(by_edges, along, margin) : by_edges;
     }
     return touch;
 }

@@ -182,6 +182,7 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
     bool of_b = s.by_face_b > s.by_face_a + 0.1f * slop;
     float by_face = of_b ? s.by_face_b : s.by_face_a;
     bool aligned = false;
+    ManifoldBuffer along = empty_manifold();
     if (by_face > -1.0e29f && by_face < s.distance - slop) {
         vec4 plane = of_b ? plane_of(b, s.face_b, hulls) : plane_of(a, s.face_a, hulls);
         aligned = is_aligned(dot3(vec3(plane.x, plane.y, plane.z), s.normal));
@@ -198,11 +199,14 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
         }
         ManifoldBuffer touch = manifold_of_face(own, other, between, face, slop, margin, hulls);
         if (of_b) touch = flipped(touch, -d);
-        if (aligned && is_patch_as_deep(touch, s.distance, slop)) return along_axis(touch, s.normal, s.distance, margin);
+        if (aligned) {
+            along = along_axis(touch, s.normal, s.distance, margin);
+            if (is_patch_as_deep(along, s.distance, PATCH_SHORTFALL * slop)) return along;
+        }
         // If the clipped patch is not as deep as the face's plane says, use the edges.
         if (!aligned && touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
     }
-    return manifold_of_lines(a, b, d, s, margin, hulls);
+    return with_patch(manifold_of_lines(a, b, d, s, margin, hulls), along, margin);
 }
 
 // The plane first. All vertices of a polyhedron count, not only those of the face towards the plane, and all that penetrate: a

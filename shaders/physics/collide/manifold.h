@@ -58,17 +58,17 @@ LAW float deepest_of(ManifoldBuffer touch) {
 
 // Plates that lie across each other, tilted a little both ways, overlap least along an axis of two edges, since the ends of each
 // reach below the face of the other beside it. Edges touch in one point, on which such plates rock for ever: three of
-// 1 x 0.3 x 0.05 m moved at 0.6 m/s, half a plate deep. So where the axis is nearly the normal of a face, and the face's clipped
-// patch is as deep, the contact has the patch's points and the axis as its normal.
-CONSTANT float ALIGNED = 0.98f;  // cosine: 11 degrees
+// 1 x 0.3 x 0.05 m moved at 0.6 m/s, half a plate deep. So where the axis is nearly the normal of a face, the contact has the
+// points of the face's clipped patch, with the axis as its normal. Where the patch is not as deep as the axis says, as under a
+// cylinder that leans over a box's edge, the point of the edges comes first: if it took turns with the patch, the cylinder
+// would rock between the two.
+CONSTANT float ALIGNED = 0.98f;         // cosine: 11 degrees
+CONSTANT float PATCH_SHORTFALL = 0.1f;  // of the slop, by which a patch that is deep enough may fall short
 
 LAW bool is_aligned(float cosine) {
     return abs(cosine) > ALIGNED;
 }
-LAW bool is_patch_as_deep(ManifoldBuffer touch, float separation, float slop) {
-    return touch.count > 1u && abs(deepest_of(touch) - separation) <= slop;
-}
-// The points along that unit axis from A to B, on which the separation of the bodies is known, m: none is deeper.
+// The patch's points along that unit axis from A to B, on which the separation of the bodies is known, m: none is deeper.
 LAW ManifoldBuffer along_axis(ManifoldBuffer touch, vec3 axis, float separation, float margin) {
     float slant = dot3(touch.manifold.normal, axis);
     float change = positive(separation - slant * deepest_of(touch));
@@ -80,6 +80,18 @@ LAW ManifoldBuffer along_axis(ManifoldBuffer touch, vec3 axis, float separation,
             along = with_point(along, vec3(point.x, point.y, point.z), slant * point.w + change, feature, margin);
     }
     return along;
+}
+LAW bool is_patch_as_deep(ManifoldBuffer along, float separation, float slop) {
+    return along.count > 1u && deepest_of(along) <= separation + slop;
+}
+// The points of the edges, then those of the patch, of one normal, up to four.
+LAW ManifoldBuffer with_patch(ManifoldBuffer edges, ManifoldBuffer along, float margin) {
+    for (uint k = 0u; k < 4u; ++k) {
+        vec4 point = along.manifold.points[k];
+        uint feature = (along.manifold.features >> (8u * k)) & 255u;
+        if (k < along.count) edges = with_point(edges, vec3(point.x, point.y, point.z), point.w, feature, margin);
+    }
+    return edges;
 }
 
 LAW vec4 seen_from(vec4 point, vec3 d) {
