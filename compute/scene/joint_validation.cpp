@@ -101,7 +101,7 @@ Joint joint_at(const Scene& scene, JointKind kind, std::size_t a, std::size_t b,
     const dvec3 z = glm::normalize(glm::cross(x, side));
     const dquat turn = x == dvec3(1, 0, 0) ? dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z));
     Joint joint;
-    joint.kind = std::move(kind);
+    joint.kind = kind;
     joint.a = a;
     joint.b = b;
     const Frame in_a = frame_of(scene, a), in_b = frame_of(scene, b);
@@ -113,7 +113,7 @@ Joint joint_at(const Scene& scene, JointKind kind, std::size_t a, std::size_t b,
 }
 
 Joint joint_between(const Scene& scene, JointKind kind, std::size_t a, std::size_t b, vec3 anchor_a, vec3 anchor_b) {
-    Joint joint = joint_at(scene, std::move(kind), a, b, anchor_a);
+    Joint joint = joint_at(scene, kind, a, b, anchor_a);
     const Frame in_b = frame_of(scene, b);
     joint.anchor_b = vec3(glm::conjugate(in_b.turn) * (dvec3(anchor_b) - in_b.position));
     return joint;

@@ -117,7 +117,7 @@ void World::Impl::require_memory_for_lists() {
     const bool of_pairs = (counts.overflow & physics::OVERFLOW_PAIRS) != 0;
     char text[200];
     std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and %.3g GB are allowed; ",
-                  static_cast<unsigned long long>(steps + 1), of_pairs ? counts.required_pairs : counts.required_contacts,
+                  static_cast<unsigned long long>(steps) + 1, of_pairs ? counts.required_pairs : counts.required_contacts,
                   of_pairs ? "pairs of bodies that may touch" : "contacts", static_cast<double>(needed) * 1e-9,
                   static_cast<double>(memory_limit) * 1e-9);
     throw std::length_error(text + most_paired_body() +

@@ -11,7 +11,7 @@ using namespace scree::host;
 TEST_CASE("a reduced image has the mean light of its blocks", "[image]") {
     Image image{4, 2, std::vector<std::uint8_t>(4 * 2 * 4, 255), 8};
     for (int k = 0; k < 3; ++k)
-        image.rgba[static_cast<std::size_t>(k)] = image.rgba[static_cast<std::size_t>(20 + k)] = 0;  // a checkered block
+        image.rgba[static_cast<std::size_t>(k)] = image.rgba[20 + static_cast<std::size_t>(k)] = 0;  // a checkered block
     const Image half = reduced(image, 2);
     REQUIRE(half.width == 2);
     REQUIRE(half.height == 1);

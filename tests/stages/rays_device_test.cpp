@@ -103,7 +103,7 @@ TEST_CASE("rays on a device meet what they meet on the CPU, to the bit, after st
         REQUIRE(cpu.state_hash() == there.world.state_hash());
         hits += require_equal(cpu, there.world, rays_around(cpu, 1500, 2));
         for (World* one : {&cpu, &there.world}) {
-            one->remove_body(static_cast<std::size_t>(9 + steps));
+            one->remove_body(9 + static_cast<std::size_t>(steps));
             one->set_bodies(std::vector{BodyChange{4, vec3(0.5f, 3, 0.5f)}});
         }
         hits += require_equal(cpu, there.world, rays_around(cpu, 500, 3));

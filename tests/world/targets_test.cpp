@@ -22,7 +22,7 @@ Scene chain(int links) {
     for (int i = 0; i < links; ++i)
         scene.bodies.push_back({.shape = Sphere{0.1f}, .position = {0.3f * static_cast<float>(i), 0, 0}});
     for (int i = 0; i + 1 < links; ++i) {
-        Joint joint = joint_at(scene, Ball{}, static_cast<std::size_t>(i), static_cast<std::size_t>(i + 1),
+        Joint joint = joint_at(scene, Ball{}, static_cast<std::size_t>(i), static_cast<std::size_t>(i) + 1,
                                {0.3f * static_cast<float>(i) + 0.15f, 0, 0});
         scene.joints.push_back(joint);
     }

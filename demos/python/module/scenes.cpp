@@ -130,7 +130,7 @@ void add_event(Description& scene, const std::string& text) {
     TimedEvent event;
     const Place list = root / "events";
     read_value(json_of(text), list / events.size(), event, "", names_of(scene.document.scene));
-    events.push_back(std::move(event));
+    events.push_back(event);
     try {
         check_events(events, scene.document.scene);
     } catch (const SceneError&) {

@@ -226,7 +226,7 @@ LAW ManifoldBuffer collide_plane_convex(BodyProperties tp, Pose plane, BodyPrope
     Feature no_sides = down;
     no_sides.points = 0u;
     uint corners = b.shape == SHAPE_HULL ? b.head.vertices : 0u;
-    ManifoldBuffer touch = manifold_over(reference, b, no_sides, b, down, corners, lowest - lowest, ceiling,
+    ManifoldBuffer touch = manifold_over(reference, b, no_sides, b, down, corners, vec3(0.0f), ceiling,
                                          0.1f * (FACE_PREFERENCE * b.scale), margin, hulls);
     touch = flipped(touch, plane.position - pose.position);
     touch.manifold.normal = normal;

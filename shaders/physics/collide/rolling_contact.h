@@ -54,7 +54,7 @@ LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3
 // anchor body, separations as at present.
 LAW ManifoldBuffer brought_back(ManifoldBuffer touch, BodyProperties a, Velocity va, BodyProperties b, Velocity vb, vec3 d,
                                 float ahead) {
-    vec3 back = stays_with_b(a, b) ? (va.linear - vb.linear) * ahead : d - d;
+    vec3 back = stays_with_b(a, b) ? (va.linear - vb.linear) * ahead : vec3(0.0f);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= touch.count) continue;
         vec4 point = touch.manifold.points[k];

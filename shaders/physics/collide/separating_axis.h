@@ -203,7 +203,7 @@ LAW Separation separation_of(ConvexShape a, ConvexShape b, vec3 d, float enough,
             if ((k != 1u && !has_side(a.shape)) || (k != 0u && !has_side(b.shape))) continue;
             normal = side_axis_between(a, b, d, k);
         } else {
-            vec3 push = apart ? d - d : s.normal * (room - s.distance);
+            vec3 push = apart ? vec3(0.0f) : s.normal * (room - s.distance);
             Simplex nearest = gjk_closest(a, b, d + push, s.normal, hulls);
             normal = unit3(nearest.nearest, s.normal);
             known = !curved && lies_over_triangle(nearest, push);

@@ -96,7 +96,9 @@ int difference(const Image& a, const Image& b, std::size_t i, std::size_t j) {
 
 // Whether a pixel of `a` occurs in `b` at its position or, for shifted edges, at a neighbouring one.
 bool found(const Image& a, const Image& b, int x, int y) {
-    const auto at = [&](int column, int row) { return static_cast<std::size_t>(row * a.width + column); };
+    const auto at = [&](int column, int row) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(column);
+    };
     for (int row = std::max(y - 1, 0); row <= std::min(y + 1, a.height - 1); ++row) {
         for (int column = std::max(x - 1, 0); column <= std::min(x + 1, a.width - 1); ++column) {
             if (difference(a, b, at(x, y), at(column, row)) <= 24) return true;
