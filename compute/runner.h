@@ -39,6 +39,8 @@ public:
     std::vector<std::vector<std::byte>> gather(const std::vector<std::byte>& said) const {
         return swap(std::vector<std::vector<std::byte>>(static_cast<std::size_t>(ranks()), said));
     }
+    // Brings the contacts that this rank alone has to where the host reads them.
+    virtual void download_own_contacts() {}
     // Between steps: whether each rank can do with its share of the attached tables, and dropping and getting back the rest.
     virtual bool can_share_out() const { return false; }
     virtual void share_out() {}

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "compute/distributed/distributed_runner.h"
 #include "compute/step/stage_fusion.h"
 #include "compute/step/stage_slices.h"
 #include "shaders/embedded.h"
@@ -382,31 +383,41 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
     return true;
 }
 
-void DeviceRunner::run_stage(std::size_t index) {
-    std::vector<std::unique_ptr<host::CommandBuffer>>& alone = alone_[parity_];
-    if (alone.empty()) {
-        std::vector<Stage> unfused;
-        for (const Stage& stage : plan_)
-            for (Stage& dispatch : dispatches_of(stage, joint_dispatches_)) unfused.push_back(std::move(dispatch));
-        make_pipelines(unfused);
-        for (const Stage& stage : plan_) {
-            auto commands = std::make_unique<host::CommandBuffer>(device_, 0);
-            for (const Stage& dispatch : dispatches_of(stage, joint_dispatches_)) {
-                record_stage(*commands, dispatch);
-                commands->barrier();
-            }
-            commands->end();
-            alone.push_back(std::move(commands));
+const DeviceRunner::Recordings& DeviceRunner::single_stages() {
+    Recordings& alone = alone_[parity_];
+    if (!alone.empty()) return alone;
+    std::vector<Stage> unfused;
+    for (const Stage& stage : plan_)
+        for (Stage& dispatch : dispatches_of(stage, joint_dispatches_)) unfused.push_back(std::move(dispatch));
+    make_pipelines(unfused);
+    for (const Stage& stage : plan_) {
+        auto commands = std::make_unique<host::CommandBuffer>(device_, 0);
+        for (const Stage& dispatch : dispatches_of(stage, joint_dispatches_)) {
+            record_stage(*commands, dispatch);
+            commands->barrier();
         }
+        copy_list_ends(*commands, stage);
+        commands->end();
+        alone.push_back(std::move(commands));
     }
+    return alone;
+}
+
+void DeviceRunner::run_stages(std::size_t first, std::size_t last) {
+    const Recordings& alone = single_stages();
     std::vector<VkCommandBuffer> commands;
     if (std::exchange(inputs_given_, false)) commands.push_back(inputs_->copies(parity_));
-    commands.push_back(alone[index]->handle());
+    for (std::size_t i = first; i < last; ++i) commands.push_back(alone[i]->handle());
     device_->submit_and_wait(commands);
+    if (last == plan_.size()) require_short_lists(parity_);
 }
 
 std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device) {
     return std::make_unique<DeviceRunner>(std::move(device));
+}
+
+std::unique_ptr<Runner> make_distributed_runner(std::shared_ptr<Exchange> exchange, std::shared_ptr<host::Device> device) {
+    return std::make_unique<DistributedRunner>(std::move(exchange), 0, std::make_unique<DeviceRunner>(std::move(device)));
 }
 
 }  // namespace scree

@@ -15,7 +15,7 @@
 #include "compute/device/ray_caster.h"
 #include "compute/device/row_mover.h"
 #include "compute/device/step_inputs.h"
-#include "compute/runner.h"
+#include "compute/staged_runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
 #include "compute/step/stage_fusion.h"
@@ -28,7 +28,7 @@
 
 namespace scree {
 
-class DeviceRunner : public Runner {
+class DeviceRunner : public StagedRunner {
 public:
     explicit DeviceRunner(std::shared_ptr<host::Device> device);
     ~DeviceRunner() override;
@@ -67,9 +67,9 @@ public:
     BodyLease lease_bodies();             // body_lease.h
     void return_bodies(VkSemaphore timeline, std::uint64_t value) { returned_ = {timeline, value}; }
 
-    // For lockstep: a step stage by stage, and access to tables.
-    void begin_step();
-    void run_stage(std::size_t index);
+    // A step stage by stage, unfused, for ranks and lockstep, which also reads and writes tables.
+    void begin_step() override;
+    void run_stages(std::size_t first, std::size_t last) override;
     void read(Table table, std::span<std::byte> bytes, std::size_t offset = 0) const;
     void write(Table table, std::span<const std::byte> bytes);
     // Whether stages are fused because the world is small.
@@ -101,6 +101,7 @@ private:
     void bind_tables();
     using Recordings = std::vector<std::unique_ptr<host::CommandBuffer>>;
     const Recordings& whole_step();
+    const Recordings& single_stages();
     std::vector<VkCommandBuffer> commands_of_step();
     void note_duration(double seconds);
     void take_pieces();

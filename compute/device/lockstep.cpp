@@ -44,7 +44,7 @@ struct Lockstep::Impl {
     }
 
     bool compare(const Stage& stage, std::size_t index) {
-        there.run_stage(index);
+        there.run_stages(index, index + 1);
         result.stage = stage.name;
         // After an overflow only counts are written.
         return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {

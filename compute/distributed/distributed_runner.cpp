@@ -38,16 +38,21 @@ struct BrokenBody {
 
 std::string DistributedRunner::device() const {
     const auto counted = [](int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
-    return counted(exchange_->ranks(), "rank") + " of " + counted(threads_.count(), "thread");
+    return counted(exchange_->ranks(), "rank") + " of " + (device_ ? device_.runner().device() : counted(threads_.count(), "thread"));
 }
 
 void DistributedRunner::attach(State& state) {
     if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
     state_ = &state;
+    device_.attach(state);
+    std::uint32_t any_on_device[1] = {device_ ? 1u : 0u};
+    exchange_->unite(any_on_device);
+    any_on_device_ = any_on_device[0] != 0;
     adapt();
 }
 
 void DistributedRunner::adapt() {
+    device_.adapt_if_changed();
     ownership_.adapt(*state_, *exchange_);
     halo_.adapt(*state_);
     // New rows are the same on all ranks until the next step.
@@ -84,7 +89,7 @@ void DistributedRunner::adapt() {
 bool DistributedRunner::can_share_out() const {
     const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
     const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
-    return exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
+    return !any_on_device_ && exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
 }
 
 void DistributedRunner::share_out() {
@@ -107,13 +112,15 @@ bool DistributedRunner::step() {
     State& state = *state_;
     if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
     gathered_.assign(table_count, false);
-    if (!state.fixed().redo) state.turn_over();
+    device_.adapt_if_changed();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
-        if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
-        ownership_.follow_joints(state, *exchange_, share_);
-        if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_, share_);
-        ownership_.place(state, *exchange_);
+        move_bodies_between_ranks();
+        place_bodies();
+    } else if (!state.fixed().redo) {
+        state.turn_over();
     }
+    device_.mark_presence();
+    if (device_) device_.runner().begin_step();
     wakes_ = knows_waking_ = knows_border_ = false;
     spin_limited_ = state.counted().spin_limited;
     quarantined_ = state.counted().quarantined;
@@ -121,14 +128,63 @@ bool DistributedRunner::step() {
     const Watch watch(threads_);
     for (std::size_t i = 0; i < plan_.size();) {
         if (!say(before_[i])) return false;
-        run(i);
-        if (!say(after_[i])) return false;
-        const bool travels = after_[i] == Talk::velocities || after_[i] == Talk::motion;
-        ++i;
-        if (travels && exchange_->ranks() > 1) i = pass_meanwhile(i);
+        if (device_) {
+            i = run_on_device(i);
+        } else {
+            run(i++);
+        }
+        if (!say(after_[i - 1])) return false;
+        const bool travels = after_[i - 1] == Talk::velocities || after_[i - 1] == Talk::motion;
+        if (travels && !device_ && exchange_->ranks() > 1) i = pass_meanwhile(i);
     }
+    device_.fetch_counts();
+    if (state.changes_motions()) device_.fetch({Table::properties});
     clock_.end_step();
-    return true;
+    return state.counted().overflow == 0;
+}
+
+// Turns the tables over; what moves is read and written as the last step left it.
+void DistributedRunner::move_bodies_between_ranks() {
+    State& state = *state_;
+    if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
+    const bool balances = begun_++ % steps_between_balances == 0, may_move = balances || ownership_.will_follow_joints();
+    const auto lasting = [&] {
+        TableRanges ranges = lasting_ranges(state);
+        ranges.push_back({Table::slot_ends, 0, state.fixed().bodies});
+        return ranges;
+    };
+    if (device_ && may_move) {
+        device_.fetch_counts();
+        device_.fetch(lasting());
+    }
+    const std::uint64_t migrations = ownership_.migrations();
+    state.turn_over();
+    ownership_.follow_joints(state, *exchange_, share_);
+    if (balances) ownership_.balance(state, *exchange_, share_);
+    if (!device_ || ownership_.migrations() == migrations) return;
+    state.turn_over();
+    device_.adapt_if_changed();
+    device_.store(lasting());
+    state.turn_over();
+}
+
+void DistributedRunner::place_bodies() {
+    using enum Table;
+    const bool any_stopped = device_ && ownership_.any_stopped(*state_);
+    if (any_stopped) device_.fetch({poses, velocities, sleep_states, masses, strains});
+    ownership_.place(*state_, *exchange_);
+    if (any_stopped) device_.store({poses, velocities, sleep_states, masses, strains});
+}
+
+std::size_t DistributedRunner::run_on_device(std::size_t first) {
+    std::size_t last = first + 1;
+    while (last < plan_.size() && !profiles_device_ && after_[last - 1] == Talk::none && before_[last] == Talk::none) ++last;
+    const auto begin = std::chrono::steady_clock::now();
+    device_.runner().run_stages(first, last);
+    const auto end = std::chrono::steady_clock::now();
+    if (profiles_device_) clock_.add(first, std::chrono::duration<double>(end - begin).count());
+    if (Timeline* told = timeline()) tell(*told, Timeline::caller, plan_[first], *state_, begin, end);
+    return last;
 }
 
 void DistributedRunner::run(std::size_t stage) {
@@ -176,46 +232,86 @@ bool DistributedRunner::say(Talk what) {
 }
 
 bool DistributedRunner::talk(Talk what) {
-    if (exchange_->ranks() == 1) return what != Talk::room || state_->counted().overflow == 0;
-    const bool fast = state_->counted().fast != 0, some_break = state_->counted().broken != 0;
+    using enum Table;
+    using Rows = DeviceSide::Rows;
+    if (exchange_->ranks() == 1) {
+        if (what != Talk::room) return true;
+        device_.fetch_counts();
+        return state_->counted().overflow == 0;
+    }
+    const bool fast = state_->counted().fast != 0;
     switch (what) {
         case Talk::none:
             break;
         case Talk::ghosts:
+            device_.fetch({poses, velocities, forces, sleep_states, masses});
+            device_.fetch_contacts_of_sleepers();
             halo_.find(*state_, ownership_, *exchange_, share_);
+            device_.take_rows(halo_);
+            device_.mark_presence();
+            device_.store({poses, velocities, forces, sleep_states, masses}, Rows::ghosts);
             break;
         case Talk::flags:
+            device_.fetch_counts();
+            device_.fetch({masses}, Rows::ghosts);  // as the stage has found them
             agree_on_flags();
+            device_.store_counts();
             break;
         case Talk::room:
+            device_.fetch_counts();
             return agree_on_room();
         case Talk::struck:
-            if (fast) halo_.send_struck(*state_, *exchange_);
+            if (!fast) break;
+            device_.fetch({bounds});
+            halo_.send_struck(*state_, *exchange_);
+            device_.store({bounds});
             break;
         case Talk::wake:
             tell_wake();
             break;
         case Talk::velocities:
+            device_.fetch({velocities, masses}, Rows::sent);
             halo_.start_velocities(*state_, *exchange_);
+            if (!device_) break;
+            halo_.finish(*state_, *exchange_);
+            device_.store({velocities, masses}, Rows::ghosts);
             break;
         case Talk::motion:
+            device_.fetch({velocities, poses, forces, impact_debts}, Rows::sent);
             halo_.start_motion(*state_, *exchange_);
+            if (!device_) break;
+            halo_.finish(*state_, *exchange_);
+            device_.store({velocities, poses, forces, impact_debts, masses}, Rows::ghosts);
             break;
         case Talk::ends:
+            device_.fetch_counts();
             tell_ends();
+            device_.store_counts();
             break;
         case Talk::stops:
-            if (fast) halo_.send_stops(*state_, *exchange_);
+            if (!fast) break;
+            device_.fetch({bounds}, Rows::sent);
+            device_.fetch({bounds}, Rows::ghosts);
+            halo_.send_stops(*state_, *exchange_);
+            device_.store({bounds}, Rows::ghosts);
             break;
         case Talk::kept: {
+            device_.fetch_counts();
             std::uint32_t broken[1] = {state_->counted().broken};
             exchange_->add(broken);
             state_->counted().broken = broken[0];
-            if (broken[0] != 0) halo_.send_kept(*state_, *exchange_);
+            device_.store_counts();
+            if (broken[0] == 0) break;
+            device_.fetch({forces});
+            halo_.send_kept(*state_, *exchange_);
+            device_.store({forces}, Rows::ghosts);
             break;
         }
         case Talk::broken:
-            if (some_break) tell_broken();
+            if (state_->counted().broken == 0) break;
+            device_.fetch({forces, poses, velocities});
+            tell_broken();
+            device_.store({forces, poses, velocities});
             break;
     }
     return true;
@@ -240,7 +336,9 @@ bool DistributedRunner::agree_on_room() {
 
 // What is awake by then is known to all; without shaking bodies one round is enough.
 void DistributedRunner::tell_wake() {
+    using Rows = DeviceSide::Rows;
     physics::Counts& counts = state_->counted();
+    if (counts.sleepers && physics::any_stirs(counts)) device_.fetch_counts();
     if (!counts.sleepers || !physics::any_stirs(counts)) return;
     if (!knows_waking_) {
         physics::uint& work = counts.arguments[physics::WORK_WAKE].x;
@@ -248,11 +346,18 @@ void DistributedRunner::tell_wake() {
         exchange_->unite(some);
         knows_waking_ = true;
         wakes_ = some[0] != 0;
-        if (wakes_) work = std::max(1u, work);
+        // A CPU asks whether there is work; a device has as many threads for it as there are contacts here.
+        if (wakes_ && device_)
+            counts.arguments[physics::WORK_WAKE] = counts.arguments[physics::WORK_CONTACTS];
+        else if (wakes_)
+            work = std::max(1u, work);
+        device_.store_counts();
     } else if (!wakes_) {
         return;
     }
+    device_.fetch({Table::sleep_states}, Rows::sent);
     halo_.send_sleep_states(*state_, *exchange_);
+    device_.store({Table::sleep_states}, Rows::ghosts);
 }
 
 void DistributedRunner::tell_ends() {
@@ -261,11 +366,19 @@ void DistributedRunner::tell_ends() {
     exchange_->add(sums);
     counts.spin_limited = spin_limited_ + sums[1];
     counts.quarantined = quarantined_ + sums[2];
-    if (sums[2] != 0) tell_quarantined();
+    if (sums[2] != 0) {
+        device_.fetch({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
+        tell_quarantined();
+        device_.store({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
+    }
     if (sums[0] == 0) return;
     counts.fast = 1;
     counts.arguments[physics::WORK_CCD_PAIRS] = counts.arguments[physics::WORK_PAIRS];
+    using Rows = DeviceSide::Rows;
+    device_.fetch({Table::poses, Table::bounds}, Rows::sent);
+    device_.fetch({Table::poses, Table::bounds}, Rows::ghosts);
     halo_.send_ends(*state_, *exchange_);
+    device_.store({Table::poses, Table::bounds}, Rows::ghosts);
 }
 
 void DistributedRunner::tell_quarantined() {
@@ -313,6 +426,7 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
         return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
     };
     if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
+    device_.store(ranges);
 }
 
 void DistributedRunner::forget_contacts() {
@@ -324,12 +438,38 @@ void DistributedRunner::forget_contacts() {
     if (own_capacity_ < state.fixed().contact_capacity) state.shrink_contacts(std::max(own_capacity_, state.counted().contacts));
 }
 
+void DistributedRunner::fetch_from_device(const TableRanges& ranges) {
+    using enum Table;
+    bool any_contacts = false;
+    TableRanges others;
+    for (const TableRange& range : ranges) {
+        switch (range.table) {
+            case contacts:
+            case impulses:
+            case constraints:
+            case first_contacts:
+            case carried:
+                any_contacts = true;
+                break;
+            default:
+                others.push_back(range);
+        }
+    }
+    device_.fetch(others);
+    if (any_contacts) device_.fetch_contacts();
+}
+
+void DistributedRunner::download_own_contacts() {
+    if (!gathered_[static_cast<std::size_t>(Table::contacts)]) device_.fetch_contacts();
+}
+
 void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
-    if (state_->presence.empty()) return;  // all is here
+    if (state_->presence.empty()) return device_.fetch(ranges);  // all is here
     if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
     for (const TableRange& range : ranges)
         if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
+    fetch_from_device(missing);
     gather_ranges(*state_, *exchange_, missing);
     using enum Table;
     const auto note = [&](Table table) { gathered_[static_cast<std::size_t>(table)] = true; };

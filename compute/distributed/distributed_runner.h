@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compute/distributed/border.h"
+#include "compute/distributed/device_side.h"
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
@@ -22,21 +23,25 @@ namespace scree {
 
 class DistributedRunner : public Runner {
 public:
-    DistributedRunner(std::shared_ptr<Exchange> exchange, int threads) : exchange_(std::move(exchange)), threads_(threads) {}
-    std::string backend() const override { return "cpu"; }
+    // `device`: runs the stages; null: the CPU does, with `threads` threads.
+    DistributedRunner(std::shared_ptr<Exchange> exchange, int threads, std::unique_ptr<StagedRunner> device = nullptr)
+        : exchange_(std::move(exchange)), threads_(threads), device_(std::move(device)) {}
+    std::string backend() const override { return device_ ? "vulkan" : "cpu"; }
     std::string device() const override;
-    std::uint32_t group_size() const override { return 64; }
+    std::uint32_t group_size() const override { return device_ ? device_.runner().group_size() : 64; }
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     int ranks() const override { return exchange_->ranks(); }
     int rank() const override { return exchange_->rank(); }
     std::vector<Bytes> swap(const std::vector<Bytes>& to) const override { return exchange_->swap(to); }
+    void download_own_contacts() override;
     bool can_share_out() const override;
     void share_out() override;
     void make_whole() override;
     void attach(State& state) override;
     void adapt() override;
     bool step() override;
+    void set_profiling(bool on) override { profiles_device_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -59,6 +64,10 @@ private:
     bool say(Talk what);   // talk(), timed
     bool talk(Talk what);  // false: the step is to be repeated with longer lists
     void run(std::size_t stage);
+    // On the device: the stages from this one on up to the next that ranks talk before or after. Returns the stage after them.
+    std::size_t run_on_device(std::size_t first);
+    void move_bodies_between_ranks();
+    void place_bodies();
     // Runs the stages of a pass, from this one, while what was said last travels. Returns the stage after them.
     std::size_t pass_meanwhile(std::size_t first);
     void agree_on_flags();
@@ -67,12 +76,15 @@ private:
     void tell_ends();
     void tell_quarantined();
     void tell_broken();
+    void fetch_from_device(const std::vector<TableRange>& ranges);
     void forget_contacts();  // of other ranks, which were read
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
 
     std::shared_ptr<Exchange> exchange_;
     Threads threads_;
+    DeviceSide device_;
+    bool profiles_device_ = false, any_on_device_ = false;  // the latter: some rank
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     std::vector<Talk> before_, after_;  // by stage

@@ -234,6 +234,20 @@ void Halo::forget() {
     known_.clear();
 }
 
+static std::vector<std::uint32_t> united(const std::vector<std::vector<std::uint32_t>>& of_ranks) {
+    std::vector<std::uint32_t> rows;
+    for (const std::vector<std::uint32_t>& some : of_ranks) rows.insert(rows.end(), some.begin(), some.end());
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+}
+std::vector<std::uint32_t> Halo::sent_rows() const {
+    return united(to_);
+}
+std::vector<std::uint32_t> Halo::ghost_rows() const {
+    return united(from_);
+}
+
 std::size_t Halo::ghosts() const {
     std::size_t count = 0;
     for (const std::vector<std::uint32_t>& rows : from_) count += rows.size();

@@ -33,6 +33,8 @@ public:
     void finish(State& state, Exchange& exchange);
 
     std::size_t ghosts() const;
+    std::vector<std::uint32_t> sent_rows() const;   // of bodies here that other ranks have as ghosts, ascending, each once
+    std::vector<std::uint32_t> ghost_rows() const;  // ascending
 
 private:
     struct Box {

@@ -118,6 +118,14 @@ void Ownership::adapt(const State& state, const Exchange& exchange) {
     }
 }
 
+bool Ownership::any_stopped(const State& state) const {
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        const std::uint32_t id = state.id_of(row);
+        if (id < owner_.size() && was_dynamic_[id] && !is_dynamic(state, row)) return true;
+    }
+    return false;
+}
+
 void Ownership::place(State& state, Exchange& exchange) {
     const std::uint32_t rows = state.fixed().bodies, first_part = state.fixed().first_part;
     state.presence.assign(rows, Presence::elsewhere);

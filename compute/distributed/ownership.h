@@ -18,6 +18,8 @@ public:
     // Follows bodies and joints that have come or gone; new bodies go where their place is.
     void adapt(const State& state, const Exchange& exchange);
     bool knows(const State& state) const { return owner_.size() == state.body_count; }
+    bool will_follow_joints() const { return regrouped_; }  // in follow_joints()
+    bool any_stopped(const State& state) const;             // bodies that are no longer dynamic, of which place() will tell
     // Sets the presence of every row by its motion and owner, with no ghosts. Bodies that are no longer dynamic are told to all.
     void place(State& state, Exchange& exchange);
     // Moves the borders by the cost that was measured, and the bodies that have crossed one. Between turning over and begin_step.

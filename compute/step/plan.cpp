@@ -17,7 +17,7 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
            (features.joints ? physics::FEATURE_JOINTS : 0) | (features.sums ? physics::FEATURE_SUMS : 0) |
            (features.surfaces ? physics::FEATURE_SURFACES : 0) | (features.filters ? physics::FEATURE_FILTERS : 0) |
            (features.copies ? physics::FEATURE_COPIES : 0) | (features.gravities ? physics::FEATURE_GRAVITIES : 0) |
-           (features.blocks ? physics::FEATURE_BLOCKS : 0);
+           (features.blocks ? physics::FEATURE_BLOCKS : 0) | (features.ghosts ? physics::FEATURE_GHOSTS : 0);
 }
 
 struct Order {

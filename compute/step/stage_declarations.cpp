@@ -75,7 +75,8 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features =
-        physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES;
+        physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES |
+        physics::FEATURE_GHOSTS;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{counts}, {bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -159,14 +160,14 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {by_atomics({slot_ends, A::bodies})}});
     all.push_back({"count_joint_slots", DispatchDomain::joint_blocks, count_joint_slots,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}},
-        {{joints, A::joints, 1}, {block_bodies, A::joints, 1}, by_atomics({slot_ends, A::joints})}});
+        {{joints, A::joints, 1}, {block_bodies, A::joints, 1}, by_atomics({slot_ends, A::joints})}, physics::FEATURE_GHOSTS});
     declare_scan(all, {"slots", DispatchDomain::body_scan_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
     all.push_back({"fill_slots", DispatchDomain::contacts, fill_slots,
         {in_parts({counts}), {contacts, A::contacts, 1}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solver_contacts}), in_parts({counts})}});
     all.push_back({"fill_joint_slots", DispatchDomain::joint_blocks, fill_joint_slots,
         {in_parts({counts}), {joint_blocks, A::joints}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
-        {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
+        {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}, physics::FEATURE_GHOSTS});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}},
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, some_only({contact_slots, A::contacts}), {block_bodies}, {counts}}, physics::FEATURE_REORDERED});
@@ -189,7 +190,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
-        {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
+        {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
@@ -199,7 +200,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
-        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, unfinished({impact_debts})}});
+        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {impact_debts}, {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
@@ -210,7 +211,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}, {forces, A::movers, 1}},
-        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({forces}), some_only({masses}), some_only({properties})}});
+        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({forces}), some_only({masses}), some_only({properties})}, physics::FEATURE_GHOSTS});
 }
 
 std::vector<StageDeclaration> declare() {
@@ -227,7 +228,7 @@ std::vector<StageDeclaration> declare() {
         {some_only({forces, A::movers})}, physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES});
     all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
         {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {sleep_states, A::joints}, {way_points}},
-        {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});
+        {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}, physics::FEATURE_GHOSTS});
     all.push_back({"pose_parts", DispatchDomain::bodies, pose_parts,
         {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
@@ -235,7 +236,7 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies, 1}, {sleep_states, A::bodies}, {cell_ends, A::bodies}, {ids},
          {copy_states}},
         {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {copy_states}, {counts}},
-        physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
+        physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS});
     declare_broadphase(all);
     declare_narrowphase(all);
     declare_contacts(all);
@@ -252,7 +253,7 @@ std::vector<StageDeclaration> declare() {
         {{poses}, {velocities}}});
     all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
         {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}, {ids}, {copy_states}},
-        {some_only({strains, A::movers}), {forces}, {copy_states}, {counts}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
+        {some_only({strains, A::movers}), {forces}, {copy_states}, {counts}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS});
     all.push_back({"return_excess_impulse", DispatchDomain::bodies, return_excess_impulse,
         {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solver_contacts}, {impulses}, {masses},
          {forces, A::bodies, 1}, {carried, A::solver_contacts}, {velocities, A::movers}, {ids}, {copy_states}},

@@ -145,6 +145,7 @@ SceneFeatures State::features() const {
     found.bounces |= fixed().least_restitution > 0;
     found.copies = has_copies();
     found.gravities = !gravities.empty();
+    found.ghosts = marks_foreign;
     return found;
 }
 

@@ -104,6 +104,7 @@ struct SceneFeatures {
     bool copies = false;     // there are several copies of the scene
     bool gravities = false;  // whose gravity differs
     bool blocks = false;     // there are compounds or meshes: pairs of bodies in several contacts
+    bool ghosts = false;     // rows of other ranks are marked (State::marks_foreign)
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -123,11 +124,12 @@ struct SceneFeatures {
                 .sums = true,
                 .copies = true,
                 .gravities = true,
-                .blocks = true};
+                .blocks = true,
+                .ghosts = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 19 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 20 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
@@ -251,6 +253,7 @@ struct State {
     const physics::PoseInBody& part_in(std::size_t row) const {
         return parts[row - fixed().first_part];
     }
+    bool marks_foreign = false;  // on a rank's device, ROW_FOREIGN and ROW_ELSEWHERE tell the presence
     // By row, if ranks share the world; else empty: all is here.
     std::vector<Presence> presence;
     bool is_here(std::size_t row) const {

@@ -369,6 +369,7 @@ ContactSums World::Impl::all_contact_sums() const {
         bring(contact_ranges);
         return contact_sums(state);
     }
+    runner->download_own_contacts();
     const ContactSums own = contact_sums(state);
     std::vector<std::byte> said(sizeof own);
     std::memcpy(said.data(), &own, sizeof own);

@@ -19,7 +19,7 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     BodyProperties body = READ(properties, i);
     Pose pose = READ(poses, i);
-    if (is_absent(body.motion)) {
+    if (is_absent(body.motion) || (GHOSTS && (body.flags & ROW_ELSEWHERE) != 0u)) {
         bounds.at[i] = no_bounds(pose);
         return;
     }

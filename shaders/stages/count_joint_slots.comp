@@ -5,6 +5,7 @@
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 bool is_gone(uint body) {
@@ -20,8 +21,9 @@ void main() {
     for (uint m = block.first_body; m < block.first_body + block.bodies; ++m) {
         uint body = block_bodies.at[m].body;
         block_bodies.at[m].slot = NONE;
-        if (any_stirs(COUNTED) &&
-            is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
+        BodyProperties properties = READ(properties, body);
+        if (any_stirs(COUNTED) && !is_foreign(properties) &&
+            is_movable(properties.motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
             atomicAdd(WORD(slot_counts, body), 1u);
     }
 }

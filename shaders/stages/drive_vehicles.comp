@@ -5,6 +5,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/vehicle.h"
 #include "shaders/physics/solve/joint_axis.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 WayPoint way_point_at(Routes routes, uint place) {
@@ -19,7 +20,8 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.vehicles || COUNTED.overflow != 0u) return;
     VehicleDynamics v = vehicles.at[i].dynamics;
-    if (is_absent(READ(properties, v.chassis).motion)) return;
+    BodyProperties chassis = READ(properties, v.chassis);
+    if (is_absent(chassis.motion) || is_foreign(chassis)) return;
     if (PARAMETERS.redo == 0u) {
         v = driven(v, Routes(0u), READ(poses, v.chassis), READ(velocities, v.chassis), PARAMETERS);
         vehicles.at[i].dynamics = v;

@@ -7,6 +7,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/sweep.h"
 #include "shaders/physics/solve/motion.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 // after the declarations of the tables
@@ -31,7 +32,7 @@ void main() {
     if (i == 0u) ++COUNTS.steps;
     if (i >= PARAMETERS.bodies || is_asleep(WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
-    if (body.motion != MOTION_DYNAMIC) return;
+    if (body.motion != MOTION_DYNAMIC || is_foreign(body)) return;
     Gathered sum = gather(i);
     Velocity velocity = READ(velocities, i);
     velocity.linear = flush_tiny(velocity.linear + sum.change.linear);

@@ -4,6 +4,7 @@
 
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
@@ -12,7 +13,8 @@ void main() {
     JointBlock block = joint_blocks.at[i];
     for (uint m = block.first_body; m < block.first_body + block.bodies; ++m) {
         uint body = block_bodies.at[m].body;
-        if (is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
+        BodyProperties properties = READ(properties, body);
+        if (!is_foreign(properties) && is_movable(properties.motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
             WORD(slot_sides, atomicAdd(WORD(slot_starts, body), 1u)) = OF_JOINT | m;
     }
 }

@@ -9,7 +9,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     BodyProperties body = READ(properties, i);
-    if (!may_break(body)) return;
+    if (!may_break(body) || is_foreign(body)) return;
     float blow = 0.0f;
     uint last = READ_WORD(slot_ends, i);
     for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k)

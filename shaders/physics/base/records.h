@@ -22,6 +22,9 @@ CONSTANT uint MOTION_OF_PART = 8u;
 CONSTANT uint ROW_LARGE = 1u;          // not in the grid but in the list of large bodies
 CONSTANT uint ROW_APART = 2u;          // collides with nothing: only drawn, or a sensor
 CONSTANT uint ROW_SENSOR = 4u;         // one of the latter that is a sensor
+// On devices of ranks that share a world (compute/distributed), of bodies that another rank moves and of their parts.
+CONSTANT uint ROW_FOREIGN = 8u;
+CONSTANT uint ROW_ELSEWHERE = 16u;     // one of the latter that is not near either, so no ghost: it is in no cell
 CONSTANT uint ROW_SURFACE_SHIFT = 8u;  // above: index into the table of surfaces plus 1; 0: none
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
@@ -548,6 +551,7 @@ CONSTANT uint FEATURE_SURFACES = 512u;    // materials with more than friction, 
 CONSTANT uint FEATURE_COPIES = 1024u;     // several copies of a scene
 CONSTANT uint FEATURE_GRAVITIES = 2048u;  // whose gravity differs
 CONSTANT uint FEATURE_BLOCKS = 4096u;     // compounds or meshes: pairs of bodies in several contacts
+CONSTANT uint FEATURE_GHOSTS = 8192u;     // rows of other ranks are marked by ROW_FOREIGN
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

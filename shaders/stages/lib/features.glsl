@@ -18,6 +18,12 @@ const bool FILTERS = (FEATURES & FEATURE_FILTERS) != 0u;
 const bool COPIES = (FEATURES & FEATURE_COPIES) != 0u;
 const bool GRAVITIES = (FEATURES & FEATURE_GRAVITIES) != 0u;
 const bool BLOCKS = (FEATURES & FEATURE_BLOCKS) != 0u;
+const bool GHOSTS = (FEATURES & FEATURE_GHOSTS) != 0u;
+
+// Whether another rank moves the body of a row.
+bool is_foreign(BodyProperties row) {
+    return GHOSTS && (row.flags & ROW_FOREIGN) != 0u;
+}
 
 // The variant of a shared module: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;

@@ -33,7 +33,15 @@ bool may_collide(uint row, uint other) {
     }
     return true;
 }
+// Whether this rank moves the body of a row, one that contacts move.
+bool is_owned(uint row) {
+    BodyProperties properties = READ(properties, row);
+    return motion_of(properties) == MOTION_DYNAMIC && !is_foreign(properties);
+}
 void meets(uint body, uint other) {
+    if (GHOSTS) {
+        if (!is_owned(body) && !is_owned(other)) return;
+    }
     if (FILTERS) {
         if (!may_collide(body, other)) return;
     }
@@ -91,6 +99,9 @@ void carry_over(uint body) {
         uint a = READ(contacts_before, k).a;
         uint other = a == body ? READ(contacts_before, k).b : a;
         if ((READ(bounds, other).level & INACTIVE) == 0u) continue;
+        if (GHOSTS) {
+            if (!is_owned(body) && !is_owned(other)) continue;
+        }
         if (FILTERS) {
             if (!may_collide(body, other)) continue;
         }

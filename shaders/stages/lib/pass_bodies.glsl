@@ -17,7 +17,7 @@
 void begin_body(uint i, bool first) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
-    if (body.motion != MOTION_DYNAMIC) return;
+    if (body.motion != MOTION_DYNAMIC || is_foreign(body)) return;
     Gathered sum = gather(i);
     Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
@@ -36,7 +36,7 @@ void begin_body(uint i, bool first) {
 void move_body(uint i) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
-    if (body.motion == MOTION_FIXED || is_part(body) || is_out_of_play(body.motion)) return;
+    if (body.motion == MOTION_FIXED || is_part(body) || is_out_of_play(body.motion) || is_foreign(body)) return;
     Velocity velocity = READ(velocities, i);
     // At rest it keeps every bit: to normalise some quaternions again changes them for ever.
     if (body.motion == MOTION_KINEMATIC && !in_motion(velocity)) return;

@@ -1,0 +1,59 @@
+// The device of a rank and the host's tables, through which ranks tell each other of bodies: only rows near borders pass between
+// the two in a substep.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <vector>
+
+#include "compute/distributed/halo.h"
+#include "compute/staged_runner.h"
+#include "compute/step/state.h"
+#include "compute/step/table_ranges.h"
+
+namespace scree {
+
+// Without a device, on a rank of the CPU, fetch() and store() do nothing: its stages work in the host's tables.
+class DeviceSide {
+public:
+    explicit DeviceSide(std::unique_ptr<StagedRunner> device) : device_(std::move(device)) {}
+    explicit operator bool() const { return device_ != nullptr; }
+    StagedRunner& runner() const { return *device_; }
+
+    void attach(State& state);
+    void adapt();
+    void adapt_if_changed();  // tables became longer or shorter since
+
+    enum class Rows {
+        all,
+        sent,   // of bodies here that are ghosts elsewhere
+        ghosts  // of this rank
+    };
+    void take_rows(const Halo& halo);  // of this step
+    // From the device into the host's tables, and back.
+    void fetch(std::initializer_list<Table> tables, Rows rows = Rows::all);
+    void store(std::initializer_list<Table> tables, Rows rows = Rows::all);
+    void fetch(const TableRanges& ranges);
+    void store(const TableRanges& ranges);
+    void fetch_counts() { fetch({{Table::counts, 0, 1}}); }
+    void store_counts() { store({{Table::counts, 0, 1}}); }
+    // The contacts of the last step (before the tables are turned over), with all that lasts of them.
+    void fetch_contacts();
+    // Those that keep bodies asleep in touch, once the tables were turned over; none if no body of this rank is asleep.
+    void fetch_contacts_of_sleepers();
+
+    // Tells the device which rows other ranks move (ROW_FOREIGN, ROW_ELSEWHERE), where that has changed.
+    void mark_presence();
+
+private:
+    TableRanges ranges(std::initializer_list<Table> tables, Rows rows) const;
+
+    std::unique_ptr<StagedRunner> device_;
+    State* state_ = nullptr;
+    TableLengths adapted_;
+    std::vector<std::uint32_t> sent_, ghosts_;  // rows, ascending
+    std::vector<std::uint8_t> marks_;           // by row, as the device has them
+};
+
+}  // namespace scree
