@@ -173,6 +173,8 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     }
     for (const std::size_t first : firsts) handles.push_back({static_cast<std::uint32_t>(first), in.generations[first]});
     if (filters || !in.state.filters.empty()) append(changed, editor.filter(in.scene));
+    // The last body with a filter may be gone since, and with it the table.
+    if (in.state.filters.empty()) std::erase_if(changed, [](const TableRange& range) { return range.table == Table::filters; });
     in.send(changed, before);
     in.edits.clear();
     ++in.arrangements;

@@ -79,6 +79,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
     TableRanges changed = ranges_of(rows, {Table::poses, Table::velocities, Table::sleep_states});
     TableRanges needed = changed;
     if (state.changes_motions()) append(needed, ranges_of(rows, {Table::properties}));
+    if (state.counted().quarantined > 0) append(needed, ranges_of(rows, {Table::masses}));
     runner->download(needed);
     for (const BodyChange& change : bodies) require_there(change.body);
     std::set<std::size_t> woken;  // copies

@@ -115,3 +115,30 @@ TEST_CASE("a thousand bodies are added and removed in one upload of what changed
     there.step(3);
     REQUIRE(there.scene().bodies.size() == 2201);
 }
+
+// Random programs 2380, 3309, 3508 and 5723: rows were to be uploaded of a table that was gone.
+TEST_CASE("bodies are added on a device after the last one with a filter was removed", "[vulkan]") {
+    const auto device = host::Device::open({.validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+    Scene scene;
+    const auto body_at = [](const Shape& shape, vec3 position) {
+        Body body;
+        body.shape = shape;
+        body.position = position;
+        return body;
+    };
+    scene.bodies.push_back(body_at(Plane{}, {}));
+    scene.bodies.back().motion = Motion::fixed;
+    for (int i = 0; i < 5; ++i) scene.bodies.push_back(body_at(Box{vec3(0.3f)}, {2.0f * static_cast<float>(i), 0.4f, 0}));
+    scene.bodies.back().filter = Filter{2, 1, 0};
+    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(device));
+    for (World* world : {&cpu, &there}) {
+        world->step();
+        world->remove_body(5);
+        world->step(2);
+        std::vector<Body> born;
+        for (int i = 0; i < 40; ++i) born.push_back(body_at(Sphere{0.2f}, {0.5f * static_cast<float>(i), 2, 0}));
+        world->add_bodies(born);
+        world->step(30);
+    }
+    CHECK(there.state_hash() == cpu.state_hash());
+}

@@ -35,4 +35,10 @@ TEST_CASE("a quarantine has the same bits on a device, stage by stage", "[vulkan
     processor.step(20);
     CHECK(device.state_hash() == processor.state_hash());
     CHECK(device.quarantines().size() == 1);
+    // Random program 3309: nobody had read the masses, so the host had none.
+    World unread(scene, {}, make_device_runner(watched.device));
+    unread.step(40);
+    unread.set_bodies(std::vector{BodyChange{.body = 1, .position = vec3(30, 5, 0)}});
+    unread.step(20);
+    CHECK(unread.state_hash() == processor.state_hash());
 }
