@@ -107,6 +107,13 @@ void DeviceSide::fetch_contacts() {
     fetch(wanted);
 }
 
+void DeviceSide::store_contacts() {
+    const std::size_t count = state_->counted().contacts;
+    store_counts();
+    store({{Table::contacts, 0, count}, {Table::impulses, 0, count}, {Table::constraints, 0, count}});
+    store({Table::first_contacts});
+}
+
 void DeviceSide::fetch_contacts_of_sleepers() {
     if (!device_) return;
     State& state = *state_;

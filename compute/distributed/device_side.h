@@ -40,6 +40,7 @@ public:
     void store_counts() { store({{Table::counts, 0, 1}}); }
     // The contacts of the last step (before the tables are turned over), with all that lasts of them.
     void fetch_contacts();
+    void store_contacts();
     // Those that keep bodies asleep in touch, once the tables were turned over; none if no body of this rank is asleep.
     void fetch_contacts_of_sleepers();
 

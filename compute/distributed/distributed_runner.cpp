@@ -28,6 +28,12 @@ bool starts_with(const std::string& text, const char* begin) {
     return text.rfind(begin, 0) == 0;
 }
 
+// Tables that are gathered together, for their numbers differ by rank.
+bool is_of_contacts(Table table) {
+    using enum Table;
+    return table == contacts || table == impulses || table == constraints || table == first_contacts || table == carried;
+}
+
 struct BrokenBody {
     std::uint32_t row = 0;
     physics::Pose pose;
@@ -52,7 +58,7 @@ void DistributedRunner::attach(State& state) {
 }
 
 void DistributedRunner::adapt() {
-    device_.adapt_if_changed();
+    device_.adapt();
     ownership_.adapt(*state_, *exchange_);
     halo_.adapt(*state_);
     // New rows are the same on all ranks until the next step.
@@ -113,6 +119,7 @@ bool DistributedRunner::step() {
     if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
     gathered_.assign(table_count, false);
     device_.adapt_if_changed();
+    if (std::exchange(edited_contacts_, false)) device_.store_contacts();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
         move_bodies_between_ranks();
         place_bodies();
@@ -426,7 +433,16 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
         return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
     };
     if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
-    device_.store(ranges);
+    if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)]) return device_.store(ranges);
+    // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.
+    TableRanges others;
+    for (const TableRange& range : ranges) {
+        if (is_of_contacts(range.table))
+            edited_contacts_ = true;
+        else
+            others.push_back(range);
+    }
+    device_.store(others);
 }
 
 void DistributedRunner::forget_contacts() {
@@ -439,21 +455,13 @@ void DistributedRunner::forget_contacts() {
 }
 
 void DistributedRunner::fetch_from_device(const TableRanges& ranges) {
-    using enum Table;
     bool any_contacts = false;
     TableRanges others;
     for (const TableRange& range : ranges) {
-        switch (range.table) {
-            case contacts:
-            case impulses:
-            case constraints:
-            case first_contacts:
-            case carried:
-                any_contacts = true;
-                break;
-            default:
-                others.push_back(range);
-        }
+        if (is_of_contacts(range.table))
+            any_contacts = true;
+        else
+            others.push_back(range);
     }
     device_.fetch(others);
     if (any_contacts) device_.fetch_contacts();
@@ -474,14 +482,11 @@ void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
     using enum Table;
     const auto note = [&](Table table) { gathered_[static_cast<std::size_t>(table)] = true; };
     for (const TableRange& range : missing) {
+        if (is_of_contacts(range.table)) {
+            for (const Table table : {contacts, impulses, constraints, first_contacts, carried}) note(table);
+            continue;
+        }
         switch (range.table) {
-            case contacts:  // always all together and whole: their numbers differ by rank
-            case impulses:
-            case constraints:
-            case first_contacts:
-            case carried:
-                for (const Table table : {contacts, impulses, constraints, first_contacts, carried}) note(table);
-                break;
             case joints:
             case vehicles:
                 note(range.table);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/distributed/exchange.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
 #include "demos/program/options.h"
@@ -23,6 +24,7 @@ struct Backend {
     std::shared_ptr<host::Device> screen = nullptr;  // the device that presents a window; null unless requested
 
     std::unique_ptr<Runner> make_runner() const;
+    std::unique_ptr<Runner> make_runner(std::shared_ptr<Exchange> exchange) const;  // of a rank
     std::string driver() const;   // of the device, with its version; empty: the CPU
     bool draws() const;           // whether it is a device with graphics
     bool has_own_memory() const;  // whether it is a device whose memory is not this process's
@@ -40,6 +42,9 @@ enum class Choice {
                // (demos/program/backend_timing.h)
     a_device,  // default: a device, if there is any
 };
+// Which device the rank at this place among those of its machine takes: ranks take the usable ones of the best kind in turn. Its
+// index, for MachineOptions::device. Throws as choose_machine does.
+std::string device_of_rank(int place);
 Backend choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions = {});
 
 // A canvas on the backend's device, else on any. Throws host::DeviceError naming the package to install.

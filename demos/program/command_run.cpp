@@ -194,7 +194,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         world.set_profiling(timed || traced);
         const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
         const bool waits =
-            world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
+            world.runner().backend() != "cpu" && world.runner().ranks() == 1 && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
         int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
         unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
         if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
@@ -369,6 +369,12 @@ World world_of(LoadedScene& subject, const RunOptions& run, const Settings& sett
     }
 }
 
+// Pictures of a world on ranks are drawn from tables of the host: a rank's device has the bodies near its own alone.
+Backend drawing_from_host(Backend machine) {
+    if (machine.device) machine.screen = std::exchange(machine.device, nullptr);
+    return machine;
+}
+
 int run(RunOptions options) {
     RunReport report;
     report.started_at = date_and_time();
@@ -391,7 +397,7 @@ int run(RunOptions options) {
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
     preparing.emplace(options.timeline.get(), "make the world");
     std::unique_ptr<Runner> runner =
-        options.exchange ? make_distributed_runner(options.exchange, options.machine.threads) : machine.make_runner();
+        options.exchange ? machine.make_runner(options.exchange) : machine.make_runner();
     if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     World world = world_of(subject, options, subject.settings(options.scene), std::move(runner), vary);
     limit_memory(world, machine);
@@ -407,7 +413,7 @@ int run(RunOptions options) {
     preparing.emplace(options.timeline.get(), "make the canvas");
     if (options.draws) {
         const CopiesShown shown = shown_of(options.copies, subject);
-        pictures.emplace(options.pictures, machine, subject, world, shown);
+        pictures.emplace(options.pictures, options.exchange ? drawing_from_host(machine) : machine, subject, world, shown);
         if (options.exchange && !options.saves) subject.scene = {};  // as large as its tables
     }
     if (pictures) report.canvas = pictures->canvas();
@@ -473,7 +479,6 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
                                  resumed.info.steps, steps));
 }
 
-// What does not work on several ranks.
 void require_distinct_outputs(const RunOptions& options) {
     require_distinct({{"--video", options.pictures.video},
                       {"--preview", options.pictures.preview},
@@ -487,10 +492,12 @@ void require_distinct_outputs(const RunOptions& options) {
                       {"--trace", options.trace.file}});
 }
 
+// What does not work on several ranks.
 void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) {
-    if (options.machine.backend == "vulkan") throw UsageError("--distributed: runs on CPUs so far, not with --backend vulkan");
-    for (const char* option : {"--copies", "--device", "--validate"})
-        if (command.count(option) != 0) throw UsageError(fmt::format("--distributed: not together with {}", option));
+    const bool on_devices = options.machine.backend == "vulkan";
+    if (!on_devices && command.count("--device") + command.count("--validate") != 0)
+        throw UsageError("--distributed: --device and --validate are for ranks on devices, with --backend vulkan");
+    if (command.count("--copies") != 0) throw UsageError("--distributed: not together with --copies");
 }
 
 // Every rank does the same, and the first alone writes and speaks.
@@ -521,11 +528,13 @@ int run(const CLI::App& command, RunOptions options) {
     options.draws = options.pictures.wanted();
     if (!options.distributed) return run(options);
     require_sense_on_ranks(command, options);
-    int neighbours = 1;
+    Neighbours neighbours;
     options.exchange = join_ranks(neighbours);
-    if (options.machine.threads == 0)
-        options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours);
-    options.machine.backend = "cpu";
+    const bool on_devices = options.machine.backend == "vulkan";
+    if (!on_devices) options.machine.backend = "cpu";
+    if (!on_devices && options.machine.threads == 0)
+        options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours.count);
+    if (on_devices && options.machine.device.empty()) options.machine.device = device_of_rank(neighbours.place);
     options.is_watched = !options.trajectory.file.empty() || !options.animation.file.empty();
     options.saves = !options.save.empty();
     if (!options.speaks()) make_silent(options);
@@ -553,8 +562,9 @@ void add_run(CLI::App& program, int& status) {
         "Replay a recording of `scree view --record`: its scene, settings, steps and commands, to the same bits.");
     command
         ->add_flag("--distributed", options->distributed,
-                   "One world on all processes that mpirun started, to the same bits; each moves a share of the bodies. Every "
-                   "process reads the whole scene; the first one writes.")
+                   "One world on all processes that mpirun started, to the same bits; each moves a share of the bodies, on "
+                   "processors, or with --backend vulkan on a device each. Every process reads the whole scene; the first one "
+                   "writes.")
         ->group("Backend");
     command->get_option("scene")->required(false);
     command->add_flag("--quiet,-q", options->quiet, "Print no progress and no summary.");
@@ -576,7 +586,8 @@ void add_run(CLI::App& program, int& status) {
         "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
         "  scree run pile --bodies 10k --seconds 2 --trace trace.json\n"
         "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4\n"
-        "  mpirun -n 4 scree run pile --bodies 100k --distributed");
+        "  mpirun -n 4 scree run pile --bodies 100k --distributed\n"
+        "  mpirun -n 2 scree run pile --bodies 100k --distributed --backend vulkan");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

@@ -10,7 +10,6 @@
 
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/mpi/module.h"
 
 namespace scree::demos {
 
@@ -35,7 +34,7 @@ void* load_module() {
 
 }  // namespace
 
-std::shared_ptr<Exchange> join_ranks(int& neighbours) {
+std::shared_ptr<Exchange> join_ranks(Neighbours& neighbours) {
     // Tables that are freed go back to the system: by itself the library keeps them once they are larger than ever before.
 #ifdef M_MMAP_THRESHOLD
     ::mallopt(M_MMAP_THRESHOLD, 1 << 20);

@@ -51,6 +51,31 @@ TEST_CASE("program: a world on several processes ends with the hash of one", "[p
     }
 }
 
+TEST_CASE("program: a world on the devices of several processes ends with the hash of one CPU, and is drawn alike",
+          "[program][ranks][vulkan]") {
+    if (cannot_run()) return;
+    const Place place;
+    const std::string run = "run ragdolls --bodies 20 --steps 24 --quiet --report - ";
+    const auto frames = [&](const std::string& folder) {
+        return " --frames '" + (place / folder).string() + "' --fps 5 --size 160x120 --no-caption --canvas gl ";
+    };
+    const std::string alone = hash_after(run_scree(run + "--backend cpu --threads 1" + frames("one")).output);
+    REQUIRE(alone.size() == 16);
+    const Outcome outcome =
+        run_scree(run + "--backend vulkan --distributed" + frames("two") + "--checkpoint '" + (place / "two.checkpoint").string() + "'",
+                  ranks(2));
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 0);
+    CHECK(hash_after(outcome.output) == alone);
+    CHECK(says(outcome.output, "\"backend\": \"vulkan\""));
+    for (const std::string name : {"frame_000000.png", "frame_000002.png"})
+        CHECK(place.read("two/" + name) == place.read("one/" + name));
+    const std::string later = "run --steps 30 --quiet --report - --resume '" + (place / "two.checkpoint").string() + "'";
+    const std::string resumed = hash_after(run_scree(later + " --backend cpu --threads 1").output);
+    REQUIRE(resumed.size() == 16);
+    CHECK(hash_after(run_scree(later + " --backend vulkan --distributed", ranks(2)).output) == resumed);
+}
+
 TEST_CASE("program: a checkpoint of two processes is resumed by one and by three, to the same hash", "[program][ranks]") {
     if (cannot_run()) return;
     const Place place;

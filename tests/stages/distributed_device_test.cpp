@@ -1,10 +1,8 @@
 // Ranks on devices: the bits of one world on one CPU.
+#include <algorithm>
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
-
-#include <initializer_list>
+#include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/random_program.h"
 
 using namespace scree;
 
@@ -79,4 +78,30 @@ TEST_CASE("joints, vehicles, what breaks, and what comes and goes on devices of 
     const auto [name, bodies, steps] = GENERATE(table<std::string, std::size_t, int>(
         {{"ragdolls", 20, 40}, {"wrecking", 40, 60}, {"cars", 6, 30}, {"shatter", 30, 50}, {"fountain", 60, 60}}));
     agrees(name, bodies, steps, 2);
+}
+
+// SCREE_PROGRAMS=1000 runs so many, from SCREE_PROGRAMS_FROM on, without validation.
+TEST_CASE("random programs give the same bits on the devices of two ranks as on one CPU", "[vulkan][ranks]") {
+    const char *count = std::getenv("SCREE_PROGRAMS"), *from = std::getenv("SCREE_PROGRAMS_FROM");
+    std::vector<std::unique_ptr<Watched>> watched;
+    std::vector<std::shared_ptr<host::Device>> devices;
+    for (int r = 0; r < 2; ++r) {
+        if (count) {
+            devices.push_back(host::Device::open({}));
+        } else {
+            watched.push_back(std::make_unique<Watched>());
+            devices.push_back(watched.back()->device);
+        }
+    }
+    const auto alone = [](const tests::RandomProgram& program) { return tests::hashes_of(program, make_reference_runner(1)); };
+    const auto on_devices = tests::hashes_on_ranks(2, [&](const std::shared_ptr<Exchange>& exchange) {
+        return make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]);
+    });
+    const int first = from ? std::atoi(from) : 1;
+    for (int seed = first; seed < first + (count ? std::atoi(count) : 2); ++seed) {
+        INFO("program " << seed);
+        tests::RandomProgram program = tests::random_program(static_cast<std::uint32_t>(seed));
+        const std::string parts = tests::difference(program, alone, on_devices);
+        if (!parts.empty()) FAIL_CHECK(parts);
+    }
 }

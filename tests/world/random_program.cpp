@@ -6,8 +6,10 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <utility>
 
 #include "compute/checkpoint.h"
+#include "compute/distributed/in_process.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/step/state.h"
 
@@ -329,10 +331,34 @@ std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<
     return lines;
 }
 
-std::string difference(RandomProgram& program, const MakeRunner& one, const MakeRunner& other) {
-    const auto differs = [&](const RandomProgram& tried) {
-        return first_difference(trace_of(tried, one()), trace_of(tried, other()));
+std::vector<std::string> hashes_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
+    std::vector<std::string> lines = trace_of(program, std::move(runner));
+    lines.pop_back();
+    for (std::string& line : lines) line.resize(line.rfind(" contacts "));
+    return lines;
+}
+
+Trace hashes_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make) {
+    return [ranks, make = std::move(make)](const RandomProgram& program) {
+        std::vector<std::vector<std::string>> seen(static_cast<std::size_t>(ranks));
+        run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
+            seen[static_cast<std::size_t>(exchange->rank())] = hashes_of(program, make(exchange));
+        });
+        for (const std::vector<std::string>& lines : seen)
+            for (std::size_t i = 0; i < lines.size(); ++i)
+                if (lines[i] != seen[0][i]) seen[0][i] += " parted";
+        return seen[0];
     };
+}
+
+std::string difference(RandomProgram& program, const MakeRunner& one, const MakeRunner& other) {
+    return difference(
+        program, [&](const RandomProgram& tried) { return trace_of(tried, one()); },
+        [&](const RandomProgram& tried) { return trace_of(tried, other()); });
+}
+
+std::string difference(RandomProgram& program, const Trace& one, const Trace& other) {
+    const auto differs = [&](const RandomProgram& tried) { return first_difference(one(tried), other(tried)); };
     if (!differs(program)) return {};
     const auto keep_if_differs = [&](RandomProgram smaller) {
         try {
@@ -368,7 +394,7 @@ std::string difference(RandomProgram& program, const MakeRunner& one, const Make
             again |= keep_if_differs(smaller);
         }
     }
-    const std::vector<std::string> a = trace_of(program, one()), b = trace_of(program, other());
+    const std::vector<std::string> a = one(program), b = other(program);
     const std::size_t line = first_difference(a, b).value_or(0);
     const auto at = [&](const std::vector<std::string>& lines) { return line < lines.size() ? lines[line] : "nothing"; };
     return "after step " + std::to_string(line + 1) + ": " + at(a) + " and " + at(b) + "\n" + text_of(program);

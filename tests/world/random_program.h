@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/distributed/exchange.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
 #include "compute/world.h"
@@ -58,11 +59,19 @@ RandomProgram random_program(std::uint32_t seed);
 // One line for each step: the hash, numbers of contacts and bodies, and what acts threw; then a hash of the saved state.
 std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
 
+// Of ranks: the hash of each step. Left out are contacts of two bodies that do not move, which no rank owns, and the saved state, in
+// which records that do not count are others.
+std::vector<std::string> hashes_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
+// On ranks of this process, whose runner `make` makes: hashes_of() of the first, with the word "parted" where another has other ones.
+using Trace = std::function<std::vector<std::string>(const RandomProgram&)>;
+Trace hashes_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make);
+
 using MakeRunner = std::function<std::unique_ptr<Runner>()>;
 
 // Whether both give the same lines; if not, where they part, after the program was made as small as still differs: acts and
 // joints and bodies left out, steps after the difference. `program` is the reduced one then.
-std::string difference(RandomProgram& program, const MakeRunner& one, const MakeRunner& other);
+std::string difference(RandomProgram& program, const Trace& one, const Trace& other);
+std::string difference(RandomProgram& program, const MakeRunner& one, const MakeRunner& other);  // by trace_of()
 
 std::string text_of(const RandomProgram& program);
 

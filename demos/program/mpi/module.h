@@ -7,8 +7,14 @@ class Exchange;
 
 namespace scree::demos {
 
-// Joins the ranks; `neighbours` takes how many are on this machine. The exchange ends MPI when it is deleted.
-using JoinRanks = Exchange*(int* neighbours);
-constexpr const char* module_function = "scree_join_ranks";
+// The ranks on one machine.
+struct Neighbours {
+    int count = 1;
+    int place = 0;  // of this one among them
+};
+
+// Joins the ranks. The exchange ends MPI when it is deleted.
+using JoinRanks = Exchange*(Neighbours* neighbours);
+constexpr const char* module_function = "scree_join_neighbours";
 
 }  // namespace scree::demos

@@ -30,13 +30,14 @@ public:
     }
     int rank() const override { return rank_; }
     int ranks() const override { return ranks_; }
-    int neighbours() const {
+    Neighbours neighbours() const {
         MPI_Comm here;
-        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-        int count = 1;
-        MPI_Comm_size(here, &count);
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &here);
+        Neighbours found;
+        MPI_Comm_size(here, &found.count);
+        MPI_Comm_rank(here, &found.place);
         MPI_Comm_free(&here);
-        return count;
+        return found;
     }
     std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
         std::vector<std::uint64_t> sent, received(to.size());
@@ -99,7 +100,7 @@ private:
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) Exchange* scree_join_ranks(int* neighbours) {
+extern "C" __attribute__((visibility("default"))) Exchange* scree_join_neighbours(Neighbours* neighbours) {
     auto exchange = std::make_unique<MpiExchange>();
     *neighbours = exchange->neighbours();
     return exchange.release();

@@ -5,6 +5,7 @@
 
 #include "compute/device/arithmetic_check.h"
 #include "compute/device/device_runner.h"
+#include "compute/distributed/distributed.h"
 #include "demos/program/backend_timing.h"
 #include "demos/program/exit_status.h"
 #include "host/copy_speed.h"
@@ -15,6 +16,11 @@ namespace scree::demos {
 
 std::unique_ptr<Runner> Backend::make_runner() const {
     return device ? make_device_runner(device) : make_reference_runner(options.threads);
+}
+
+std::unique_ptr<Runner> Backend::make_runner(std::shared_ptr<Exchange> exchange) const {
+    return device ? make_distributed_runner(std::move(exchange), device)
+                  : make_distributed_runner(std::move(exchange), options.threads);
 }
 
 double Backend::copy_speed() const {
@@ -64,6 +70,17 @@ void take_the_faster(Backend& machine) {
 }
 
 }  // namespace
+
+std::string device_of_rank(int place) {
+    std::vector<host::DeviceReport> best;
+    for (const host::DeviceReport& report : host::list_devices()) {
+        if (!report.lacks.empty()) continue;
+        if (!best.empty() && report.kind < best.front().kind) best.clear();
+        if (best.empty() || report.kind == best.front().kind) best.push_back(report);
+    }
+    // None: opening the default one says why.
+    return best.empty() ? "" : std::to_string(best[static_cast<std::size_t>(place) % best.size()].index);
+}
 
 Backend choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions) {
     Backend machine{options, nullptr, ""};

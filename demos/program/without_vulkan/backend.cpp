@@ -1,5 +1,9 @@
 // Choice of the backend in a build without Vulkan: the CPU.
 #include "demos/program/backend.h"
+
+#include <utility>
+
+#include "compute/distributed/distributed.h"
 #include "demos/program/exit_status.h"
 #include "host/copy_speed.h"
 #include "host/device_error.h"
@@ -12,6 +16,10 @@ constexpr const char* cure = "this scree was built without Vulkan; configure it 
 
 std::unique_ptr<Runner> Backend::make_runner() const {
     return make_reference_runner(options.threads);
+}
+
+std::unique_ptr<Runner> Backend::make_runner(std::shared_ptr<Exchange> exchange) const {
+    return make_distributed_runner(std::move(exchange), options.threads);
 }
 
 double Backend::copy_speed() const {
@@ -35,6 +43,10 @@ std::string Backend::arithmetic_fault() const {
 }
 
 void Backend::require_valid() const {}
+
+std::string device_of_rank(int) {
+    throw UsageError(std::string("--backend vulkan: ") + cure);
+}
 
 Backend choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
