@@ -39,13 +39,16 @@ bool can_touch(const State& state, std::uint32_t body, const physics::BodyProper
 // Part of the rows above which inactive ones are too many to search from as well: 1/8.
 constexpr std::size_t most_still = 8;
 
-// Pairs of inactive bodies are those of last step's contacts.
+// Pairs of inactive bodies are those of last step's contacts, if one of them is dynamic still.
 template <typename Found>
 void for_each_carried_over(const State& state, std::uint32_t body, const Found& found) {
     if (!still(state, body)) return;
+    const auto moves = [&](std::uint32_t row) { return physics::motion_of(state.properties[row]) == physics::MOTION_DYNAMIC; };
+    const bool moves_itself = moves(body);
     for (std::size_t k = state.first_contacts[body]; k < state.first_contacts[body + 1]; ++k) {
         const physics::Contact& contact = state.contacts_before[k];
-        if (still(state, contact.a) && still(state, contact.b)) found(contact.a == body ? contact.b : contact.a);
+        const std::uint32_t other = contact.a == body ? contact.b : contact.a;
+        if (still(state, other) && (moves_itself || moves(other))) found(other);
     }
 }
 

@@ -29,13 +29,19 @@ std::size_t parts_of(std::size_t items, const Threads& threads) {
     return threads.count() == 1 ? 1 : std::min<std::size_t>(items, 128);
 }
 template <class Work>
-void for_each_block(State& state, const Threads& threads, const Work& work) {
+void for_all_blocks(State& state, const Threads& threads, const Work& work) {
     if (state.counted().overflow) return;
     const std::size_t blocks = state.fixed().joint_blocks, parts = parts_of(blocks, threads);
     threads.for_each(parts, [&](std::size_t part) {
         const std::size_t last = (part + 1) * blocks / parts;
-        for (std::size_t i = part * blocks / parts; i < last; ++i)
-            if (state.owns_block(state.joint_blocks[i])) work(JointBlock(state, i));
+        for (std::size_t i = part * blocks / parts; i < last; ++i) work(i);
+    });
+}
+// Those that this rank solves.
+template <class Work>
+void for_each_block(State& state, const Threads& threads, const Work& work) {
+    for_all_blocks(state, threads, [&](std::size_t i) {
+        if (state.owns_block(state.joint_blocks[i])) work(JointBlock(state, i));
     });
 }
 
@@ -199,9 +205,12 @@ void share_stops(State& state, const Threads& threads, std::uint32_t pass) {
 
 void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     const auto gone = [&](physics::uint body) { return body != NONE && physics::is_out_of_play(state.properties[body].motion); };
-    for_each_block(state, threads, [&](const JointBlock& block) {
+    for_all_blocks(state, threads, [&](std::size_t i) {
+        const JointBlock block(state, i);
+        // On every rank: none owns a block whose bodies are all gone.
         for (Joint& joint : block.joints())
             if (gone(joint.a) || gone(joint.b)) joint.broken = 1;
+        if (!state.owns_block(state.joint_blocks[i])) return;
         for (BlockBody& member : block.bodies()) {
             member.slot = NONE;
             if (may_move(state, member.body)) std::atomic_ref(state.slot_ends[member.body]).fetch_add(1);

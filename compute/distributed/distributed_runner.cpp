@@ -60,7 +60,6 @@ void DistributedRunner::attach(State& state) {
 void DistributedRunner::adapt() {
     device_.adapt();
     ownership_.adapt(*state_, *exchange_);
-    halo_.adapt(*state_);
     // New rows are the same on all ranks until the next step.
     if (!state_->presence.empty()) state_->presence.resize(state_->fixed().bodies, Presence::everywhere);
     if (planned_substeps_ == state_->substeps && planned_features_ == state_->features()) return;
@@ -154,7 +153,8 @@ bool DistributedRunner::step() {
 void DistributedRunner::move_bodies_between_ranks() {
     State& state = *state_;
     if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
-    const bool balances = begun_++ % steps_between_balances == 0, may_move = balances || ownership_.will_follow_joints();
+    const bool balances = begun_++ % steps_between_balances == 0, start = ownership_.any_started(state);
+    const bool may_move = balances || start || ownership_.will_follow_joints();
     const auto lasting = [&] {
         TableRanges ranges = lasting_ranges(state);
         ranges.push_back({Table::slot_ends, 0, state.fixed().bodies});
@@ -168,7 +168,8 @@ void DistributedRunner::move_bodies_between_ranks() {
     state.turn_over();
     ownership_.follow_joints(state, *exchange_, share_);
     if (balances) ownership_.balance(state, *exchange_, share_);
-    if (!device_ || ownership_.migrations() == migrations) return;
+    if (start) ownership_.give_contacts(state, *exchange_);
+    if (!device_ || (ownership_.migrations() == migrations && !start)) return;
     state.turn_over();
     device_.adapt_if_changed();
     device_.store(lasting());

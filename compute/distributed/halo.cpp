@@ -53,7 +53,8 @@ bool overlap(const physics::vec3& lower_a, const physics::vec3& upper_a, const p
 
 }  // namespace
 
-void Halo::adapt(const State& state) {
+// Anew in each step: a compound may come into spare rows.
+void Halo::note_reach(const State& state) {
     reach_.clear();
     if (!state.features().moving_parts) return;
     reach_.assign(state.fixed().first_part, 0.0f);
@@ -160,6 +161,7 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange, Sh
     to_.assign(ranks, {});
     from_.assign(ranks, {});
     if (ranks == 1) return;
+    note_reach(state);
     find_near(state, exchange);
     find_touched(state, ownership, exchange);
     std::vector<Bytes> ghosts(ranks);

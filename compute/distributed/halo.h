@@ -13,8 +13,6 @@ namespace scree {
 
 class Halo {
 public:
-    // Notes how far the parts of moving compounds reach.
-    void adapt(const State& state);
     // Finds the ghosts of this step, those whose bounds overlap a body of another rank or that touched one in the last step, and
     // sends what the broadphase and narrowphase read of them.
     void find(State& state, const Ownership& ownership, Exchange& exchange, Share& share);
@@ -41,6 +39,7 @@ private:
         physics::vec3 lower{1e30f}, upper{-1e30f};
     };
     Box box_of(const State& state, std::uint32_t row) const;
+    void note_reach(const State& state);
     void find_near(const State& state, Exchange& exchange);
     void find_touched(const State& state, const Ownership& ownership, const Exchange& exchange);
     Bytes start_of(const State& state, const std::vector<std::uint32_t>& rows, std::vector<std::uint32_t>& known) const;

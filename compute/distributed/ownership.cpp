@@ -118,6 +118,42 @@ void Ownership::adapt(const State& state, const Exchange& exchange) {
     }
 }
 
+bool Ownership::has_started(const State& state, std::uint32_t row) const {
+    const std::uint32_t id = state.id_of(row);
+    return id < owner_.size() && !was_dynamic_[id] && is_dynamic(state, row);
+}
+
+// In a share motions do not change; without presence all contacts are here.
+bool Ownership::any_started(const State& state) const {
+    if (state.is_share() || state.presence.empty()) return false;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
+        if (has_started(state, row)) return true;
+    return false;
+}
+
+void Ownership::give_contacts(State& state, Exchange& exchange) {
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    std::vector<std::vector<OwnedContact>> contacts(ranks);
+    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
+        for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
+            const physics::Contact& contact = state.contacts_before[k];
+            for (const std::uint32_t end : {state.body_of(contact.a), state.body_of(contact.b)})
+                if (has_started(state, end) && owner_of(state, end) != exchange.rank())
+                    contacts[static_cast<std::size_t>(owner_of(state, end))].push_back(
+                        by_ids(state, {row, contact, state.impulses_before[k]}));
+        }
+    std::vector<Bytes> to(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) put_list(to[r], contacts[r]);
+    std::vector<OwnedContact> more;
+    for (const Bytes& one : exchange.swap(to)) {
+        Unpacker from(one);
+        for (const OwnedContact& contact : take_list<OwnedContact>(from)) more.push_back(by_rows(state, contact));
+    }
+    state.turn_over();
+    merge_contacts(state, more, [](const physics::Contact&) { return true; });
+    state.turn_over();
+}
+
 bool Ownership::any_stopped(const State& state) const {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         const std::uint32_t id = state.id_of(row);

@@ -24,6 +24,10 @@ public:
     void place(State& state, Exchange& exchange);
     // Moves the borders by the cost that was measured, and the bodies that have crossed one. Between turning over and begin_step.
     void balance(State& state, Exchange& exchange, Share& share);
+    // Whether bodies have become dynamic since the last step. All ranks have moved them alike, but only owners of what touches them
+    // know their contacts, which give_contacts() brings to the owners of these bodies. The latter between turning over and begin_step.
+    bool any_started(const State& state) const;
+    void give_contacts(State& state, Exchange& exchange);
     // Bodies that new joints have tied to one of another rank follow it.
     void follow_joints(State& state, Exchange& exchange, Share& share);
     // In a share no joints connect bodies.
@@ -38,6 +42,7 @@ private:
     void move(State& state, Exchange& exchange, Share& share, const Moves& own_moves);
     std::uint64_t place_of(const State& state, std::uint32_t id) const;  // on the curve
     void group(const State& state);
+    bool has_started(const State& state, std::uint32_t row) const;
 
     std::vector<int> owner_;            // by id of the body
     std::vector<std::uint32_t> group_;  // likewise: the lowest id that joints connect it with; empty: none are connected

@@ -93,8 +93,8 @@ TEST_CASE("random programs give the same bits on the devices of two ranks as on 
             devices.push_back(watched.back()->device);
         }
     }
-    const auto alone = [](const tests::RandomProgram& program) { return tests::hashes_of(program, make_reference_runner(1)); };
-    const auto on_devices = tests::hashes_on_ranks(2, [&](const std::shared_ptr<Exchange>& exchange) {
+    const auto alone = [](const tests::RandomProgram& program) { return tests::steps_of(program, make_reference_runner(1)); };
+    const auto on_devices = tests::steps_on_ranks(2, [&](const std::shared_ptr<Exchange>& exchange) {
         return make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]);
     });
     const int first = from ? std::atoi(from) : 1;

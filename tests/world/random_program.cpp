@@ -331,18 +331,17 @@ std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<
     return lines;
 }
 
-std::vector<std::string> hashes_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
+std::vector<std::string> steps_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
     std::vector<std::string> lines = trace_of(program, std::move(runner));
     lines.pop_back();
-    for (std::string& line : lines) line.resize(line.rfind(" contacts "));
     return lines;
 }
 
-Trace hashes_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make) {
+Trace steps_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make) {
     return [ranks, make = std::move(make)](const RandomProgram& program) {
         std::vector<std::vector<std::string>> seen(static_cast<std::size_t>(ranks));
         run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
-            seen[static_cast<std::size_t>(exchange->rank())] = hashes_of(program, make(exchange));
+            seen[static_cast<std::size_t>(exchange->rank())] = steps_of(program, make(exchange));
         });
         for (const std::vector<std::string>& lines : seen)
             for (std::size_t i = 0; i < lines.size(); ++i)

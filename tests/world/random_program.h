@@ -59,12 +59,11 @@ RandomProgram random_program(std::uint32_t seed);
 // One line for each step: the hash, numbers of contacts and bodies, and what acts threw; then a hash of the saved state.
 std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
 
-// Of ranks: the hash of each step. Left out are contacts of two bodies that do not move, which no rank owns, and the saved state, in
-// which records that do not count are others.
-std::vector<std::string> hashes_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
-// On ranks of this process, whose runner `make` makes: hashes_of() of the first, with the word "parted" where another has other ones.
+// Of ranks: the same without the saved state, in which records that do not count are others.
+std::vector<std::string> steps_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
+// On ranks of this process, whose runner `make` makes: steps_of() of the first, with the word "parted" where another has other ones.
 using Trace = std::function<std::vector<std::string>(const RandomProgram&)>;
-Trace hashes_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make);
+Trace steps_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make);
 
 using MakeRunner = std::function<std::unique_ptr<Runner>()>;
 

@@ -92,13 +92,15 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
     }
 }
 
-// Partners of an inactive body that are inactive too: those of its contacts in the last step.
+// Partners of an inactive body that are inactive too: those of its contacts in the last step, if one of them is dynamic still.
 void carry_over(uint body) {
     uint last = READ_WORD(first_contacts, body + 1u);
+    bool moves = motion_of(READ(properties, body)) == MOTION_DYNAMIC;
     for (uint k = READ_WORD(first_contacts, body); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == body ? READ(contacts_before, k).b : a;
         if ((READ(bounds, other).level & INACTIVE) == 0u) continue;
+        if (!moves && motion_of(READ(properties, other)) != MOTION_DYNAMIC) continue;
         if (GHOSTS) {
             if (!is_owned(body) && !is_owned(other)) continue;
         }
