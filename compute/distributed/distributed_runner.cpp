@@ -44,7 +44,8 @@ struct BrokenBody {
 
 std::string DistributedRunner::device() const {
     const auto counted = [](int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
-    return counted(exchange_->ranks(), "rank") + " of " + (device_ ? device_.runner().device() : counted(threads_.count(), "thread"));
+    return counted(exchange_->ranks(), "rank") + " of " +
+           (device_ ? device_.runner().device() : counted(threads_.count(), "thread"));
 }
 
 void DistributedRunner::attach(State& state) {
@@ -94,7 +95,8 @@ void DistributedRunner::adapt() {
 bool DistributedRunner::can_share_out() const {
     const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
     const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
-    return !any_on_device_ && exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
+    return !any_on_device_ && exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) &&
+           Share::can_be_made(*state_);
 }
 
 void DistributedRunner::share_out() {
@@ -434,7 +436,8 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
         return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
     };
     if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
-    if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)]) return device_.store(ranges);
+    if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)])
+        return device_.store(ranges);
     // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.
     TableRanges others;
     for (const TableRange& range : ranges) {

@@ -85,7 +85,7 @@ private:
     Threads threads_;
     DeviceSide device_;
     bool profiles_device_ = false, any_on_device_ = false;  // the latter: some rank
-    bool edited_contacts_ = false;  // on the host, since the last step
+    bool edited_contacts_ = false;                          // on the host, since the last step
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     std::vector<Talk> before_, after_;  // by stage

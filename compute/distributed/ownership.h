@@ -24,8 +24,9 @@ public:
     void place(State& state, Exchange& exchange);
     // Moves the borders by the cost that was measured, and the bodies that have crossed one. Between turning over and begin_step.
     void balance(State& state, Exchange& exchange, Share& share);
-    // Whether bodies have become dynamic since the last step. All ranks have moved them alike, but only owners of what touches them
-    // know their contacts, which give_contacts() brings to the owners of these bodies. The latter between turning over and begin_step.
+    // Whether bodies have become dynamic since the last step. All ranks have moved them alike, but only owners of what touches
+    // them know their contacts, which give_contacts() brings to the owners of these bodies. The latter between turning over and
+    // begin_step.
     bool any_started(const State& state) const;
     void give_contacts(State& state, Exchange& exchange);
     // Bodies that new joints have tied to one of another rank follow it.

@@ -193,8 +193,8 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         if (timeline) timeline->set_stages(traced);
         world.set_profiling(timed || traced);
         const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
-        const bool waits =
-            world.runner().backend() != "cpu" && world.runner().ranks() == 1 && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
+        const bool waits = world.runner().backend() != "cpu" && world.runner().ranks() == 1 && !report.step_ms.empty() &&
+                           report.step_ms.back() < longest_waiting_ms;
         int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
         unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
         if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
@@ -396,8 +396,7 @@ int run(RunOptions options) {
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
     preparing.emplace(options.timeline.get(), "make the world");
-    std::unique_ptr<Runner> runner =
-        options.exchange ? machine.make_runner(options.exchange) : machine.make_runner();
+    std::unique_ptr<Runner> runner = options.exchange ? machine.make_runner(options.exchange) : machine.make_runner();
     if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     World world = world_of(subject, options, subject.settings(options.scene), std::move(runner), vary);
     limit_memory(world, machine);

@@ -61,9 +61,9 @@ TEST_CASE("program: a world on the devices of several processes ends with the ha
     };
     const std::string alone = hash_after(run_scree(run + "--backend cpu --threads 1" + frames("one")).output);
     REQUIRE(alone.size() == 16);
-    const Outcome outcome =
-        run_scree(run + "--backend vulkan --distributed" + frames("two") + "--checkpoint '" + (place / "two.checkpoint").string() + "'",
-                  ranks(2));
+    const Outcome outcome = run_scree(
+        run + "--backend vulkan --distributed" + frames("two") + "--checkpoint '" + (place / "two.checkpoint").string() + "'",
+        ranks(2));
     INFO(outcome.errors);
     REQUIRE(outcome.status == 0);
     CHECK(hash_after(outcome.output) == alone);

@@ -118,7 +118,8 @@ TEST_CASE("a thousand bodies are added and removed in one upload of what changed
 
 // Random programs 2380, 3309, 3508 and 5723: rows were to be uploaded of a table that was gone.
 TEST_CASE("bodies are added on a device after the last one with a filter was removed", "[vulkan]") {
-    const auto device = host::Device::open({.validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+    const auto device =
+        host::Device::open({.validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
     Scene scene;
     const auto body_at = [](const Shape& shape, vec3 position) {
         Body body;

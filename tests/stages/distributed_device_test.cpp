@@ -69,8 +69,8 @@ TEST_CASE("a rank on a CPU among ranks on devices gives the same bits", "[vulkan
 }
 
 TEST_CASE("stacks, compounds, meshes, what sleeps and what is fast on devices of ranks move as on one CPU", "[vulkan][ranks]") {
-    const auto [name, bodies, steps] =
-        GENERATE(table<std::string, std::size_t, int>({{"stack", 0, 40}, {"assortment", 60, 60}, {"mesh", 40, 40}, {"dominoes", 20, 60}}));
+    const auto [name, bodies, steps] = GENERATE(
+        table<std::string, std::size_t, int>({{"stack", 0, 40}, {"assortment", 60, 60}, {"mesh", 40, 40}, {"dominoes", 20, 60}}));
     agrees(name, bodies, steps, 2);
 }
 

@@ -1,5 +1,5 @@
-// Random programs on a device and on the CPU: the same bits. SCREE_PROGRAMS=1000 runs so many, from SCREE_PROGRAMS_FROM on, without
-// validation, which takes half of the time.
+// Random programs on a device and on the CPU: the same bits. SCREE_PROGRAMS=1000 runs so many, from SCREE_PROGRAMS_FROM on,
+// without validation, which takes half of the time.
 #include <cstdlib>
 #include <memory>
 #include <optional>

@@ -61,7 +61,8 @@ std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<
 
 // Of ranks: the same without the saved state, in which records that do not count are others.
 std::vector<std::string> steps_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
-// On ranks of this process, whose runner `make` makes: steps_of() of the first, with the word "parted" where another has other ones.
+// On ranks of this process, whose runner `make` makes: steps_of() of the first, with the word "parted" where another has other
+// ones.
 using Trace = std::function<std::vector<std::string>(const RandomProgram&)>;
 Trace steps_on_ranks(int ranks, std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)> make);
 

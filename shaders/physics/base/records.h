@@ -19,9 +19,9 @@ CONSTANT uint MOTION_QUARANTINED = 5u;
 CONSTANT uint MOTION_OF_PART = 8u;
 
 // BodyProperties.flags.
-CONSTANT uint ROW_LARGE = 1u;          // not in the grid but in the list of large bodies
-CONSTANT uint ROW_APART = 2u;          // collides with nothing: only drawn, or a sensor
-CONSTANT uint ROW_SENSOR = 4u;         // one of the latter that is a sensor
+CONSTANT uint ROW_LARGE = 1u;   // not in the grid but in the list of large bodies
+CONSTANT uint ROW_APART = 2u;   // collides with nothing: only drawn, or a sensor
+CONSTANT uint ROW_SENSOR = 4u;  // one of the latter that is a sensor
 // On devices of ranks that share a world (compute/distributed), of bodies that another rank moves and of their parts.
 CONSTANT uint ROW_FOREIGN = 8u;
 CONSTANT uint ROW_ELSEWHERE = 16u;     // one of the latter that is not near either, so no ghost: it is in no cell
