@@ -20,7 +20,7 @@ void drive_vehicles(State& state, const Threads& threads, std::uint32_t) {
         physics::Vehicle& vehicle = state.vehicles[i];
         physics::VehicleDynamics& dynamics = vehicle.dynamics;
         const physics::uint chassis = dynamics.chassis;
-        if (!there(chassis) || !state.is_owned(chassis)) return;
+        if (!there(chassis) || !state.is_stepped(chassis)) return;
         if (!p.redo)
             dynamics = physics::driven(dynamics, {state.way_points.data()}, state.poses[chassis], state.velocities[chassis], p);
         const bool awake = physics::is_under_way(dynamics);

@@ -62,7 +62,15 @@ void DistributedRunner::adapt() {
     device_.adapt();
     ownership_.adapt(*state_, *exchange_);
     // New rows are the same on all ranks until the next step.
-    if (!state_->presence.empty()) state_->presence.resize(state_->fixed().bodies, Presence::everywhere);
+    if (!state_->presence.empty() && !state_->is_share()) {
+        std::vector<Presence>& presence = state_->presence;
+        const std::uint32_t first_part = state_->fixed().first_part;
+        presence.resize(state_->fixed().bodies, Presence::everywhere);
+        for (std::uint32_t row = std::min(placed_bodies_, first_part); row < first_part; ++row)
+            presence[row] = Presence::everywhere;
+        for (std::uint32_t row = first_part; row < presence.size(); ++row)
+            presence[row] = presence[state_->properties[row].owner];
+    }
     if (planned_substeps_ == state_->substeps && planned_features_ == state_->features()) return;
     planned_substeps_ = state_->substeps;
     planned_features_ = state_->features();
@@ -110,6 +118,7 @@ void DistributedRunner::share_out() {
 
 void DistributedRunner::make_whole() {
     share_.end(*state_, *exchange_);
+    placed_bodies_ = state_->fixed().first_part;
     halo_.forget();
     adapt();
     gathered_.assign(table_count, false);
@@ -183,6 +192,7 @@ void DistributedRunner::place_bodies() {
     const bool any_stopped = device_ && ownership_.any_stopped(*state_);
     if (any_stopped) device_.fetch({poses, velocities, sleep_states, masses, strains});
     ownership_.place(*state_, *exchange_);
+    placed_bodies_ = state_->fixed().first_part;
     if (any_stopped) device_.store({poses, velocities, sleep_states, masses, strains});
 }
 
@@ -400,6 +410,7 @@ void DistributedRunner::tell_quarantined() {
         put(said, state.id_of(row));
         put(said, state.masses[row].split_state);
     }
+    tell_vehicles_in_quarantine();
     for (const Bytes& told : exchange_->gather(said))
         for (Unpacker from(told); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
@@ -410,6 +421,26 @@ void DistributedRunner::tell_quarantined() {
             state.velocities[row] = {};
             state.sleep_states[row] = 0;
         }
+}
+
+// From then on every rank drives them alike, like whatever does not move. Before the others know of the quarantine.
+void DistributedRunner::tell_vehicles_in_quarantine() {
+    State& state = *state_;
+    if (state.fixed().vehicles == 0) return;
+    device_.fetch(vehicle_ranges(state));
+    Bytes said;
+    for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
+        const std::uint32_t chassis = state.vehicles[i].dynamics.chassis;
+        if (!state.is_owned(chassis) || !physics::is_quarantined(state.properties[chassis].motion)) continue;
+        put(said, i);
+        put(said, state.vehicles[i]);
+    }
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto i = from.take<std::uint32_t>();
+            from.take(state.vehicles[i]);
+        }
+    device_.store(vehicle_ranges(state));
 }
 
 void DistributedRunner::tell_broken() {
@@ -432,10 +463,12 @@ void DistributedRunner::tell_broken() {
 
 // Restored tables are whole on every rank, until the next step.
 void DistributedRunner::send(const std::vector<TableRange>& ranges) {
-    const auto is_whole = [&](const TableRange& range) {
-        return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
+    const auto has_whole = [&](Table table) {
+        return std::any_of(ranges.begin(), ranges.end(), [&](const TableRange& range) {
+            return range.table == table && range.first == 0 && range.count >= state_->fixed().bodies;
+        });
     };
-    if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
+    if (has_whole(Table::poses) && has_whole(Table::first_contacts)) state_->presence.clear();
     if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)])
         return device_.store(ranges);
     // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.

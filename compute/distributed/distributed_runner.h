@@ -75,6 +75,7 @@ private:
     void tell_wake();
     void tell_ends();
     void tell_quarantined();
+    void tell_vehicles_in_quarantine();
     void tell_broken();
     void fetch_from_device(const std::vector<TableRange>& ranges);
     void forget_contacts();  // of other ranks, which were read
@@ -99,6 +100,7 @@ private:
     Halo halo_;
     Border border_;
     bool knows_border_ = false;                         // in this step
+    std::uint32_t placed_bodies_ = 0;                   // rows of bodies, the first ones, when they were placed
     std::uint64_t begun_ = 0;                           // steps, without repetitions
     bool wakes_ = false, knows_waking_ = false;         // some contact shakes bodies behind it in this step
     std::uint32_t spin_limited_ = 0, quarantined_ = 0;  // as the step began

@@ -157,7 +157,8 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange, Sh
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
     for (const std::vector<std::uint32_t>& rows : from_)
         for (const std::uint32_t row : rows)
-            if (state.presence[row] == Presence::ghost) state.presence[row] = Presence::elsewhere;
+            if (row < state.presence.size() && state.presence[row] == Presence::ghost)  // less rows after a restore
+                state.presence[row] = Presence::elsewhere;
     to_.assign(ranks, {});
     from_.assign(ranks, {});
     if (ranks == 1) return;

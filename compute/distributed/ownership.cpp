@@ -99,6 +99,7 @@ void Ownership::adapt(const State& state, const Exchange& exchange) {
     const std::uint32_t n = state.body_count;
     owner_.resize(n);
     was_dynamic_.resize(n);
+    was_everywhere_.resize(n);
     group(state);
     if (known == 0) {  // as many bodies to each rank
         std::vector<std::uint64_t> places;
@@ -120,7 +121,7 @@ void Ownership::adapt(const State& state, const Exchange& exchange) {
 
 bool Ownership::has_started(const State& state, std::uint32_t row) const {
     const std::uint32_t id = state.id_of(row);
-    return id < owner_.size() && !was_dynamic_[id] && is_dynamic(state, row);
+    return id < owner_.size() && was_everywhere_[id] && is_dynamic(state, row);
 }
 
 // In a share motions do not change; without presence all contacts are here.
@@ -182,6 +183,7 @@ void Ownership::place(State& state, Exchange& exchange) {
             if (own) put(no_longer_dynamic, moved_body(state, row));
         }
         was_dynamic_[id] = dynamic;
+        was_everywhere_[id] = state.presence[row] == Presence::everywhere;
     }
     for (std::uint32_t row = first_part; row < rows; ++row) state.presence[row] = state.presence[state.properties[row].owner];
     if (!any_stopped) return;
@@ -287,10 +289,12 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
         const physics::JointBlock& block = state.joint_blocks[i];
-        int target = -1;  // of the bodies that did not break
-        for (std::uint32_t k = block.first_body; target < 0 && k < block.first_body + block.bodies; ++k)
-            target = leaves_for(state.block_bodies[k].body);
-        for (std::uint32_t k = block.first_joint; target >= 0 && k < block.first_joint + block.joints; ++k) {
+        for (std::uint32_t k = block.first_joint; k < block.first_joint + block.joints; ++k) {
+            // Not all of a block: a new joint may have united it with one of the other rank.
+            int target = -1;
+            for (const std::uint32_t end : {state.joints[k].a, state.joints[k].b})
+                if (end != physics::NONE) target = std::max(target, leaves_for(end));
+            if (target < 0) continue;
             put(joints[static_cast<std::size_t>(target)], k);
             put(joints[static_cast<std::size_t>(target)], state.joints[k]);
         }

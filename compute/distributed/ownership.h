@@ -47,7 +47,7 @@ private:
 
     std::vector<int> owner_;            // by id of the body
     std::vector<std::uint32_t> group_;  // likewise: the lowest id that joints connect it with; empty: none are connected
-    std::vector<std::uint8_t> was_dynamic_;
+    std::vector<std::uint8_t> was_dynamic_, was_everywhere_;
     std::vector<std::uint64_t> borders_;  // first place of every rank but the first
     bool regrouped_ = false;
     std::uint64_t migrations_ = 0;

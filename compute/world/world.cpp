@@ -91,11 +91,12 @@ void World::Impl::make_room_for_actions() {
     runner->adapt();
 }
 
-// The body that owns most pairs, from how the pairs were counted or listed.
+// The body that owns most pairs, from how the pairs were counted or listed. One rank alone may ask, which then talks to no other.
 std::string World::Impl::most_paired_body() const {
     const std::uint32_t bodies = state.fixed().bodies;
-    if (bodies == 0) return "";
-    runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
+    const bool is_rank = runner->ranks() > 1;
+    if (bodies == 0 || (is_rank && runner->backend() != "cpu")) return "";
+    if (!is_rank) runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
     const auto pairs_of = [&](std::uint32_t row) { return state.pair_starts[row + 1] - state.pair_starts[row]; };
     std::uint32_t most = 0;
     for (std::uint32_t row = 1; row < bodies; ++row)
@@ -107,7 +108,7 @@ std::string World::Impl::most_paired_body() const {
     if (const double way = speed / static_cast<double>(settings.rate); way > 0.1)
         std::snprintf(text + end, sizeof text - static_cast<std::size_t>(end), ", moving at %.3g m/s by %.3g m in the step",
                       speed, way);
-    return (shared ? "body " + std::to_string(state.id_of(body)) : name_of_body(state.id_of(body))) + text;
+    return "; " + (shared ? "body " + std::to_string(state.id_of(body)) : name_of_body(state.id_of(body))) + text;
 }
 
 void World::Impl::require_memory_for_lists() {
@@ -116,7 +117,7 @@ void World::Impl::require_memory_for_lists() {
     const physics::Counts& counts = state.counted();
     const bool of_pairs = (counts.overflow & physics::OVERFLOW_PAIRS) != 0;
     char text[200];
-    std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and %.3g GB are allowed; ",
+    std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and %.3g GB are allowed",
                   static_cast<unsigned long long>(steps) + 1, of_pairs ? counts.required_pairs : counts.required_contacts,
                   of_pairs ? "pairs of bodies that may touch" : "contacts", static_cast<double>(needed) * 1e-9,
                   static_cast<double>(memory_limit) * 1e-9);
