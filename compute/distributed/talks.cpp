@@ -1,0 +1,239 @@
+// What ranks tell each other between the stages of a step.
+#include <algorithm>
+
+#include "compute/distributed/distributed_runner.h"
+#include "compute/distributed/packing.h"
+#include "compute/step/stage_slices.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/quarantine.h"
+#include "shaders/physics/extra/sleep.h"
+
+namespace scree {
+
+namespace {
+
+struct BrokenBody {
+    std::uint32_t row = 0;
+    physics::Pose pose;
+    physics::Velocity velocity;
+};
+
+}  // namespace
+
+bool DistributedRunner::say(Talk what) {
+    if (what == Talk::none) return true;
+    const TimedSlice slice(timeline(), "exchange");
+    return talk(what);
+}
+
+bool DistributedRunner::talk(Talk what) {
+    using enum Table;
+    using Rows = DeviceSide::Rows;
+    if (exchange_->ranks() == 1) {
+        if (what != Talk::room) return true;
+        device_.fetch_counts();
+        return state_->counted().overflow == 0;
+    }
+    const bool fast = state_->counted().fast != 0;
+    switch (what) {
+        case Talk::none:
+            break;
+        case Talk::ghosts:
+            device_.fetch({poses, velocities, forces, sleep_states, masses});
+            device_.fetch_contacts_of_sleepers();
+            halo_.find(*state_, ownership_, *exchange_, share_);
+            device_.take_rows(halo_);
+            device_.mark_presence();
+            device_.store({poses, velocities, forces, sleep_states, masses}, Rows::ghosts);
+            break;
+        case Talk::flags:
+            device_.fetch_counts();
+            device_.fetch({masses}, Rows::ghosts);  // as the stage has found them
+            agree_on_flags();
+            device_.store_counts();
+            break;
+        case Talk::room:
+            device_.fetch_counts();
+            return agree_on_room();
+        case Talk::struck:
+            if (!fast) break;
+            device_.fetch({bounds});
+            halo_.send_struck(*state_, *exchange_);
+            device_.store({bounds});
+            break;
+        case Talk::wake:
+            tell_wake();
+            break;
+        case Talk::velocities:
+            device_.fetch({velocities, masses}, Rows::sent);
+            halo_.start_velocities(*state_, *exchange_);
+            if (!device_) break;
+            halo_.finish(*state_, *exchange_);
+            device_.store({velocities, masses}, Rows::ghosts);
+            break;
+        case Talk::motion:
+            device_.fetch({velocities, poses, forces, impact_debts}, Rows::sent);
+            halo_.start_motion(*state_, *exchange_);
+            if (!device_) break;
+            halo_.finish(*state_, *exchange_);
+            device_.store({velocities, poses, forces, impact_debts, masses}, Rows::ghosts);
+            break;
+        case Talk::ends:
+            device_.fetch_counts();
+            tell_ends();
+            device_.store_counts();
+            break;
+        case Talk::stops:
+            if (!fast) break;
+            device_.fetch({bounds}, Rows::sent);
+            device_.fetch({bounds}, Rows::ghosts);
+            halo_.send_stops(*state_, *exchange_);
+            device_.store({bounds}, Rows::ghosts);
+            break;
+        case Talk::kept: {
+            device_.fetch_counts();
+            std::uint32_t broken[1] = {state_->counted().broken};
+            exchange_->add(broken);
+            state_->counted().broken = broken[0];
+            device_.store_counts();
+            if (broken[0] == 0) break;
+            device_.fetch({forces});
+            halo_.send_kept(*state_, *exchange_);
+            device_.store({forces}, Rows::ghosts);
+            break;
+        }
+        case Talk::broken:
+            if (state_->counted().broken == 0) break;
+            device_.fetch({forces, poses, velocities});
+            tell_broken();
+            device_.store({forces, poses, velocities});
+            break;
+    }
+    return true;
+}
+
+void DistributedRunner::agree_on_flags() {
+    physics::Counts& counts = state_->counted();
+    std::uint32_t flags[5] = {counts.levels, counts.levels_stirring, counts.large_stirring, counts.sleepers, counts.fast};
+    exchange_->unite(flags);
+    counts.levels = flags[0];
+    counts.levels_stirring = flags[1];
+    counts.large_stirring = flags[2];
+    counts.sleepers = flags[3];
+    counts.fast = flags[4];
+}
+
+bool DistributedRunner::agree_on_room() {
+    std::uint32_t overflow[1] = {state_->counted().overflow};
+    exchange_->unite(overflow);
+    return overflow[0] == 0;
+}
+
+// What is awake by then is known to all; without shaking bodies one round is enough.
+void DistributedRunner::tell_wake() {
+    using Rows = DeviceSide::Rows;
+    physics::Counts& counts = state_->counted();
+    if (counts.sleepers && physics::any_stirs(counts)) device_.fetch_counts();
+    if (!counts.sleepers || !physics::any_stirs(counts)) return;
+    if (!knows_waking_) {
+        physics::uint& work = counts.arguments[physics::WORK_WAKE].x;
+        std::uint32_t some[1] = {work};
+        exchange_->unite(some);
+        knows_waking_ = true;
+        wakes_ = some[0] != 0;
+        // A CPU asks whether there is work; a device has as many threads for it as there are contacts here.
+        if (wakes_ && device_)
+            counts.arguments[physics::WORK_WAKE] = counts.arguments[physics::WORK_CONTACTS];
+        else if (wakes_)
+            work = std::max(1u, work);
+        device_.store_counts();
+    } else if (!wakes_) {
+        return;
+    }
+    device_.fetch({Table::sleep_states}, Rows::sent);
+    halo_.send_sleep_states(*state_, *exchange_);
+    device_.store({Table::sleep_states}, Rows::ghosts);
+}
+
+void DistributedRunner::tell_ends() {
+    physics::Counts& counts = state_->counted();
+    std::uint32_t sums[3] = {counts.fast, counts.spin_limited - spin_limited_, counts.quarantined - quarantined_};
+    exchange_->add(sums);
+    counts.spin_limited = spin_limited_ + sums[1];
+    counts.quarantined = quarantined_ + sums[2];
+    if (sums[2] != 0) {
+        device_.fetch({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
+        tell_quarantined();
+        device_.store({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
+    }
+    if (sums[0] == 0) return;
+    counts.fast = 1;
+    counts.arguments[physics::WORK_CCD_PAIRS] = counts.arguments[physics::WORK_PAIRS];
+    using Rows = DeviceSide::Rows;
+    device_.fetch({Table::poses, Table::bounds}, Rows::sent);
+    device_.fetch({Table::poses, Table::bounds}, Rows::ghosts);
+    halo_.send_ends(*state_, *exchange_);
+    device_.store({Table::poses, Table::bounds}, Rows::ghosts);
+}
+
+void DistributedRunner::tell_quarantined() {
+    State& state = *state_;
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].split_state >= 0)
+            continue;
+        put(said, state.id_of(row));
+        put(said, state.masses[row].split_state);
+    }
+    tell_vehicles_in_quarantine();
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
+            const auto mark = from.take<float>();
+            if (row == physics::NONE) continue;
+            state.properties[row].motion = physics::MOTION_QUARANTINED;
+            state.masses[row].split_state = mark;
+            state.velocities[row] = {};
+            state.sleep_states[row] = 0;
+        }
+}
+
+// From then on every rank drives them alike, like whatever does not move. Before the others know of the quarantine.
+void DistributedRunner::tell_vehicles_in_quarantine() {
+    State& state = *state_;
+    if (state.fixed().vehicles == 0) return;
+    device_.fetch(vehicle_ranges(state));
+    Bytes said;
+    for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
+        const std::uint32_t chassis = state.vehicles[i].dynamics.chassis;
+        if (!state.is_owned(chassis) || !physics::is_quarantined(state.properties[chassis].motion)) continue;
+        put(said, i);
+        put(said, state.vehicles[i]);
+    }
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto i = from.take<std::uint32_t>();
+            from.take(state.vehicles[i]);
+        }
+    device_.store(vehicle_ranges(state));
+}
+
+void DistributedRunner::tell_broken() {
+    State& state = *state_;
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (state.is_owned(row) && state.forces[row].kept < 1)
+            put(said, BrokenBody{row, state.poses[row], state.velocities[row]});
+        if (!state.is_owned(row)) state.forces[row].kept = 1;
+    }
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto body = from.take<BrokenBody>();
+            state.poses[body.row] = body.pose;
+            state.velocities[body.row] = body.velocity;
+            state.forces[body.row].kept = 0;
+            ownership_.inherit(state, body.row);
+        }
+}
+
+}  // namespace scree
