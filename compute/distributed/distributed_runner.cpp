@@ -30,6 +30,11 @@ bool is_of_contacts(Table table) {
     return table == contacts || table == impulses || table == constraints || table == first_contacts || table == carried;
 }
 
+TableRanges without_contacts(TableRanges ranges) {
+    std::erase_if(ranges, [](const TableRange& range) { return is_of_contacts(range.table); });
+    return ranges;
+}
+
 }  // namespace
 
 std::string DistributedRunner::device() const {
@@ -131,7 +136,8 @@ bool DistributedRunner::step() {
     wakes_ = knows_waking_ = knows_border_ = false;
     spin_limited_ = state.counted().spin_limited;
     quarantined_ = state.counted().quarantined;
-    clock_.begin_step();
+    const bool timed = !device_ || profiles_device_;
+    if (timed) clock_.begin_step();
     const Watch watch(threads_);
     for (std::size_t i = 0; i < plan_.size();) {
         if (!say(before_[i])) return false;
@@ -146,7 +152,7 @@ bool DistributedRunner::step() {
     }
     device_.fetch_counts();
     if (state.changes_motions()) device_.fetch({Table::properties});
-    clock_.end_step();
+    if (timed) clock_.end_step();
     return state.counted().overflow == 0;
 }
 
@@ -246,13 +252,8 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
     if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)])
         return device_.store(ranges);
     // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.
-    TableRanges others;
-    for (const TableRange& range : ranges) {
-        if (is_of_contacts(range.table))
-            edited_contacts_ = true;
-        else
-            others.push_back(range);
-    }
+    const TableRanges others = without_contacts(ranges);
+    edited_contacts_ |= others.size() < ranges.size();
     device_.store(others);
 }
 
@@ -266,16 +267,9 @@ void DistributedRunner::forget_contacts() {
 }
 
 void DistributedRunner::fetch_from_device(const TableRanges& ranges) {
-    bool any_contacts = false;
-    TableRanges others;
-    for (const TableRange& range : ranges) {
-        if (is_of_contacts(range.table))
-            any_contacts = true;
-        else
-            others.push_back(range);
-    }
+    const TableRanges others = without_contacts(ranges);
     device_.fetch(others);
-    if (any_contacts) device_.fetch_contacts();
+    if (others.size() < ranges.size()) device_.fetch_contacts();
 }
 
 void DistributedRunner::download_own_contacts() {

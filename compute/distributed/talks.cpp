@@ -133,8 +133,8 @@ bool DistributedRunner::agree_on_room() {
 void DistributedRunner::tell_wake() {
     using Rows = DeviceSide::Rows;
     physics::Counts& counts = state_->counted();
-    if (counts.sleepers && physics::any_stirs(counts)) device_.fetch_counts();
     if (!counts.sleepers || !physics::any_stirs(counts)) return;
+    device_.fetch_counts();
     if (!knows_waking_) {
         physics::uint& work = counts.arguments[physics::WORK_WAKE].x;
         std::uint32_t some[1] = {work};
