@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,6 +46,14 @@ public:
     virtual bool can_share_out() const { return false; }
     virtual void share_out() {}
     virtual void make_whole() {}
+    // Instead of attach(), of a world that is shared out from its start: whether ranks can begin so; from the places of its
+    // dynamic bodies on the Morton curve (compute/step/memory_order.h), the first place of every rank but the first; and taking
+    // over a state with rows of what every rank has, and the owners by id. It makes rows for this rank's own bodies, by their
+    // ids, and then calls fill().
+    virtual bool can_begin_shared() const { return false; }
+    virtual std::vector<std::uint64_t> borders_of(std::vector<std::uint64_t> /* places */) { return {}; }
+    virtual void attach_share(State& /* state */, std::vector<int> /* owners */, std::span<const std::uint32_t> /* own */,
+                              const std::function<void()>& /* fill */) {}
 
     virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 

@@ -22,7 +22,8 @@ namespace scree {
 // which World's constructor throws std::invalid_argument. While a world of bodies without joints, parts that move, fracture,
 // filters, fields and events only steps, each rank holds its share of the scene and of the tables, and those are whole again for
 // whoever looks into the world (references to World::scene() and state() last until the next step). Hashes and statistics
-// are found from the shares. In other worlds each rank holds the scene and the tables of all bodies, and contacts of its own.
+// are found from the shares. A world of a StreamedScene (compute/scene_stream.h) begins so. In other worlds each rank holds the
+// scene and the tables of all bodies, and contacts of its own.
 std::unique_ptr<Runner> make_distributed_runner(std::shared_ptr<Exchange> exchange, int threads = 1);
 
 }  // namespace scree

@@ -47,9 +47,33 @@ void DistributedRunner::attach(State& state) {
     if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
     state_ = &state;
     device_.attach(state);
-    std::uint32_t any_on_device[1] = {device_ ? 1u : 0u};
-    exchange_->unite(any_on_device);
-    any_on_device_ = any_on_device[0] != 0;
+    any_on_device_ = any_has_device();
+    adapt();
+}
+
+bool DistributedRunner::any_has_device() const {
+    std::uint32_t any[1] = {device_ ? 1u : 0u};
+    exchange_->unite(any);
+    return any[0] != 0;
+}
+
+bool DistributedRunner::can_begin_shared() const {
+    return exchange_->ranks() > 1 && !any_has_device();
+}
+
+std::vector<std::uint64_t> DistributedRunner::borders_of(std::vector<std::uint64_t> places) {
+    return ownership_.divide(std::move(places), exchange_->ranks());
+}
+
+void DistributedRunner::attach_share(State& state, std::vector<int> owners, std::span<const std::uint32_t> own,
+                                     const std::function<void()>& fill) {
+    state_ = &state;
+    ownership_.begin(std::move(owners));
+    state.allocate_all();
+    ownership_.place(state, *exchange_);  // what every rank has
+    share_.take_in(state, own);
+    fill();
+    ownership_.place(state, *exchange_);
     adapt();
 }
 

@@ -38,6 +38,10 @@ public:
     bool can_share_out() const override;
     void share_out() override;
     void make_whole() override;
+    bool can_begin_shared() const override;
+    std::vector<std::uint64_t> borders_of(std::vector<std::uint64_t> places) override;
+    void attach_share(State& state, std::vector<int> owners, std::span<const std::uint32_t> own,
+                      const std::function<void()>& fill) override;
     void attach(State& state) override;
     void adapt() override;
     bool step() override;
@@ -61,6 +65,7 @@ private:
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };
+    bool any_has_device() const;
     bool say(Talk what);   // talk(), timed
     bool talk(Talk what);  // false: the step is to be repeated with longer lists
     void run(std::size_t stage);

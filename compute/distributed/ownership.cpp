@@ -93,6 +93,20 @@ void Ownership::group(const State& state) {
     group_ = std::move(parent);
 }
 
+const std::vector<std::uint64_t>& Ownership::divide(std::vector<std::uint64_t> places, int ranks) {
+    std::sort(places.begin(), places.end());
+    borders_.clear();
+    const auto count = static_cast<std::size_t>(ranks);
+    for (std::size_t r = 1; r < count; ++r) borders_.push_back(places.empty() ? 0 : places[r * places.size() / count]);
+    return borders_;
+}
+
+void Ownership::begin(std::vector<int> owners) {
+    owner_ = std::move(owners);
+    was_dynamic_.resize(owner_.size());
+    was_everywhere_.resize(owner_.size());
+}
+
 void Ownership::adapt(const State& state, const Exchange& exchange) {
     if (state.is_share()) return;
     const auto known = static_cast<std::uint32_t>(owner_.size());
@@ -105,10 +119,7 @@ void Ownership::adapt(const State& state, const Exchange& exchange) {
         std::vector<std::uint64_t> places;
         for (std::uint32_t id = 0; id < n; ++id)
             if (is_dynamic(state, state.row_of(id))) places.push_back(place_of(state, id));
-        std::sort(places.begin(), places.end());
-        borders_.clear();
-        for (std::size_t r = 1; r < static_cast<std::size_t>(exchange.ranks()); ++r)
-            borders_.push_back(places.empty() ? 0 : places[r * places.size() / static_cast<std::size_t>(exchange.ranks())]);
+        divide(std::move(places), exchange.ranks());
     }
     for (std::uint32_t id = known; id < n; ++id)
         owner_[id] = static_cast<int>(std::upper_bound(borders_.begin(), borders_.end(), place_of(state, id)) - borders_.begin());

@@ -15,6 +15,10 @@ namespace scree {
 // The owner of every body, known to every rank. Bodies that joints connect have one owner, so no joint crosses a border.
 class Ownership {
 public:
+    // Of a world that is shared out from its start: as many bodies to each rank, by their places on the curve; returns the
+    // borders.
+    const std::vector<std::uint64_t>& divide(std::vector<std::uint64_t> places, int ranks);
+    void begin(std::vector<int> owners);
     // Follows bodies and joints that have come or gone; new bodies go where their place is.
     void adapt(const State& state, const Exchange& exchange);
     bool knows(const State& state) const { return owner_.size() == state.body_count; }

@@ -6,6 +6,7 @@
 
 #include "compute/fields/check.h"
 #include "compute/fields/document.h"
+#include "compute/scene/body_validation.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/inertial.h"
 #include "compute/scene/joint_validation.h"
@@ -84,13 +85,21 @@ void check_world_fields(Fields& of_world) {
     fields::check_fields(at, of_world);
 }
 
+Shift BodyValidation::check(Body& body, std::size_t index) {
+    return examine(Examination("bodies", "body", index, body.name), body, shapes_, notes_);
+}
+
+Shift BodyValidation::check_passing(Body& body, std::size_t index) {
+    return std::holds_alternative<Mesh>(body.shape) ? BodyValidation(notes_).check(body, index) : check(body, index);
+}
+
 Scene checked(Scene scene, std::vector<std::string>* notes) {
-    CheckedShapes shapes;
+    BodyValidation validation(notes);
     fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
     check_world_fields(scene.fields);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
-        const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], shapes, notes);
+        const Shift shift = validation.check(scene.bodies[i], i);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);

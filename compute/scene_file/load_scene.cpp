@@ -1,9 +1,13 @@
 // Loading a scene file with its meshes.
 #include "compute/scene_file/load_scene.h"
 
+#include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "compute/scene/body_validation.h"
 #include "compute/scene_file/import/folder.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "host/files/mesh_file.h"
@@ -12,19 +16,23 @@ namespace scree {
 
 namespace {
 
-void read_meshes(Scene& scene, const std::filesystem::path& folder, bool allow_outside) {
-    const std::filesystem::path home = imports::canonical_or_itself(folder.empty() ? "." : folder);
-    std::map<std::string, host::MeshFile> files;  // that several bodies may name
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        auto* mesh = std::get_if<Mesh>(&scene.bodies[i].shape);
-        if (!mesh || mesh->file.empty()) continue;
-        const std::string pointer = "/bodies/" + std::to_string(i) + "/shape/mesh/file";
-        if (!allow_outside && !imports::is_inside(imports::canonical_or_itself(home / mesh->file), home))
-            throw SceneError(pointer, "\"" + mesh->file + "\" lies outside of the scene file's folder, " + home.string() +
+// Reads the mesh files that bodies name, each once.
+class MeshFiles {
+public:
+    MeshFiles(std::filesystem::path folder, bool allow_outside)
+        : folder_(std::move(folder)),
+          home_(imports::canonical_or_itself(folder_.empty() ? "." : folder_)),
+          allow_outside_(allow_outside) {}
+    void read(Body& body, std::size_t index) {
+        auto* mesh = std::get_if<Mesh>(&body.shape);
+        if (!mesh || mesh->file.empty()) return;
+        const std::string pointer = "/bodies/" + std::to_string(index) + "/shape/mesh/file";
+        if (!allow_outside_ && !imports::is_inside(imports::canonical_or_itself(home_ / mesh->file), home_))
+            throw SceneError(pointer, "\"" + mesh->file + "\" lies outside of the scene file's folder, " + home_.string() +
                                           "; move it there, or allow it (--allow-outside)");
         try {
-            const auto [found, fresh] = files.try_emplace(mesh->file);
-            if (fresh) found->second = host::read_mesh(folder / mesh->file);
+            const auto [found, fresh] = files_.try_emplace(mesh->file);
+            if (fresh) found->second = host::read_mesh(folder_ / mesh->file);
             mesh->vertices = found->second.vertices;
             mesh->triangles = found->second.triangles;
             for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
@@ -32,7 +40,12 @@ void read_meshes(Scene& scene, const std::filesystem::path& folder, bool allow_o
             throw SceneError(pointer, error.what());
         }
     }
-}
+
+private:
+    std::filesystem::path folder_, home_;
+    bool allow_outside_;
+    std::map<std::string, host::MeshFile> files_;  // that several bodies may name
+};
 
 }  // namespace
 
@@ -56,8 +69,37 @@ SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions&
 SceneDocument scene_from_text(std::string_view text, const std::filesystem::path& folder, std::size_t most_bodies,
                               bool allow_outside) {
     SceneDocument document = scene_from_json(text, most_bodies);
-    read_meshes(document.scene, folder, allow_outside);
+    MeshFiles meshes(folder, allow_outside);
+    for (std::size_t i = 0; i < document.scene.bodies.size(); ++i) meshes.read(document.scene.bodies[i], i);
     return document;
+}
+
+std::optional<StreamedDocument> stream_scene(const std::filesystem::path& path, const ImportOptions& options,
+                                             std::vector<std::string>* notes) {
+    if (is_imported(path)) return std::nullopt;
+    const auto read = [path, allow_outside = options.allow_outside](const TakeBody& take) {
+        std::ifstream file(path);
+        MeshFiles meshes(path.parent_path(), allow_outside);
+        std::size_t index = 0;
+        return scene_without_bodies(file, [&](Body body) {
+            meshes.read(body, index++);
+            take(std::move(body));
+        });
+    };
+    BodyValidation validation(notes);
+    std::size_t count = 0;
+    std::optional<SceneDocument> document = read([&](Body body) { validation.check_passing(body, count++); });
+    if (!document) return std::nullopt;
+    const auto bodies = [read, path](const TakeBody& take) {
+        BodyValidation of_this_reading;
+        std::size_t index = 0;
+        const bool whole = read([&](Body body) {
+                               of_this_reading.check_passing(body, index++);
+                               take(std::move(body));
+                           }).has_value();
+        if (!whole) throw std::runtime_error(path.string() + ": the file has changed since it was read");
+    };
+    return StreamedDocument{std::move(*document), bodies, count};
 }
 
 }  // namespace scree

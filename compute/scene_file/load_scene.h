@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,5 +28,16 @@ SceneDocument scene_from_text(std::string_view text, const std::filesystem::path
 // given, what of those is not translated, as "FILE:LINE: reason". Throws ImportError (a std::runtime_error) for them.
 SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions& options,
                          std::vector<std::string>* notes = nullptr, std::size_t most_bodies = static_cast<std::size_t>(-1));
+
+// A scene file whose bodies stay there, for StreamedScene (compute/scene_stream.h).
+struct StreamedDocument {
+    SceneDocument document;                            // without bodies
+    std::function<void(const TakeBody& take)> bodies;  // reads them from the file each time, and checks them
+    std::size_t count = 0;                             // of bodies
+};
+// None where load_scene() is to read the file whole: files of other programs, those that refer to their bodies, syntax errors.
+// Throws SceneError, in this first reading or a later one, like load_scene(); `notes`: as of scree::checked.
+std::optional<StreamedDocument> stream_scene(const std::filesystem::path& path, const ImportOptions& options = {},
+                                             std::vector<std::string>* notes = nullptr);
 
 }  // namespace scree

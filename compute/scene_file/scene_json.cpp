@@ -3,6 +3,8 @@
 #include "compute/scene_file/scene_json.h"
 
 #include <algorithm>
+#include <istream>
+#include <utility>
 #include <vector>
 
 #include "compute/fields/document.h"
@@ -94,7 +96,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
 // Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
 class Listener {
 public:
-    Listener(Scene& scene, std::size_t most_bodies) : scene_(scene), most_bodies_(most_bodies) {}
+    Listener(const TakeBody& take, std::size_t most_bodies) : take_(take), most_bodies_(most_bodies) {}
 
     bool operator()(int depth, ParseEvent event, const json& parsed) {
         if (event == ParseEvent::object_start) keys_.emplace_back();
@@ -102,11 +104,12 @@ public:
         if (event == ParseEvent::object_end) keys_.pop_back();
         const bool ends = event == ParseEvent::object_end || event == ParseEvent::array_end || event == ParseEvent::value;
         if (!ends || depth != 2 || top_key_ != "bodies") return true;
-        if (scene_.bodies.size() == most_bodies_) {
+        if (count_ == most_bodies_) {
             refuse(bodies_, "more than " + std::to_string(most_bodies_) +
                                 " bodies, which is what fits into the memory here; use fewer bodies or a larger machine");
         }
-        scene_.bodies.push_back(body_of(parsed, bodies_ / scene_.bodies.size()));
+        take_(body_of(parsed, bodies_ / count_));
+        ++count_;
         return false;
     }
 
@@ -117,7 +120,7 @@ private:
         if (seen.size() >= most_keys)
             throw SceneError("/" + shortened_name(top_key_), "an object has more than " + std::to_string(most_keys) + " keys");
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-            const Place body = bodies_ / scene_.bodies.size();
+            const Place body = bodies_ / count_;
             const bool inside = keys_.size() > 1 && top_key_ == "bodies";
             throw SceneError(inside ? body.pointer() : "/" + escaped(top_key_), "the key \"" + key + "\" appears twice");
         }
@@ -126,26 +129,16 @@ private:
 
     static constexpr std::size_t most_keys = 256;  // several times those of any object; each is compared with all before it
 
-    Scene& scene_;
-    std::size_t most_bodies_;
+    const TakeBody& take_;
+    std::size_t most_bodies_, count_ = 0;
     std::vector<Names> keys_;  // keys of the open objects
     std::string top_key_;
     const Place root_{nullptr, nullptr, 0};
     const Place bodies_ = root_ / "bodies";
 };
 
-}  // namespace
-
-SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
-    SceneDocument document;
-    json rest;
-    try {
-        rest = json::parse(text, Listener(document.scene, most_bodies));
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
+// The document around its bodies, which are in it already unless they have gone elsewhere.
+void read_around(const json& rest, SceneDocument& document) {
     const Place root{nullptr, nullptr, 0};
     only(rest, root, keys_of<SceneDocument>());
     if (!rest.contains("bodies")) refuse(root, "a scene needs \"bodies\", an array");
@@ -160,6 +153,41 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     read_field(rest, root, fields::field_of(&Scene::fields), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
+}
+
+bool refers_to_bodies(const json& rest) {
+    const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
+    const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
+    return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events");
+}
+
+}  // namespace
+
+SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
+    SceneDocument document;
+    json rest;
+    const TakeBody take = [&](Body body) { document.scene.bodies.push_back(std::move(body)); };
+    try {
+        rest = json::parse(text, Listener(take, most_bodies));
+    } catch (const json::parse_error& error) {
+        refuse_syntax(text, error);
+    } catch (const json::out_of_range& error) {
+        refuse_number(text, error);
+    }
+    read_around(rest, document);
+    return document;
+}
+
+std::optional<SceneDocument> scene_without_bodies(std::istream& text, const TakeBody& take) {
+    json rest;
+    try {
+        rest = json::parse(text, Listener(take, static_cast<std::size_t>(-1)));
+    } catch (const json::exception&) {
+        return std::nullopt;  // where, the text as a whole tells
+    }
+    if (!rest.is_object() || refers_to_bodies(rest)) return std::nullopt;
+    SceneDocument document;
+    read_around(rest, document);
     return document;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "compute/scene.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/picture_style.h"
+#include "compute/scene_stream.h"
 #include "compute/settings.h"
 
 namespace scree {
@@ -51,6 +53,11 @@ struct SceneDocument {
 // line and column of a syntax error. Rejects more than `most_bodies` bodies before they fill memory.
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = static_cast<std::size_t>(-1));
 
+// Reads a scene file's text with its bodies apart: calls take(body) for each as soon as it has been read. None if the text has a
+// syntax error, or refers to its bodies (joints, vehicles, exclusions, events, a followed body): scene_from_json() reads these.
+// Throws SceneError likewise, and what take() throws.
+std::optional<SceneDocument> scene_without_bodies(std::istream& text, const TakeBody& take);
+
 // Writes a scene, one body per line, without keys that have their default. Throws SceneError for values that are not
 // finite, which JSON cannot express.
 std::string scene_to_json(const SceneDocument& document);
@@ -59,6 +66,7 @@ std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& vi
 // XXH64 of a scene: of gravity, bodies, joints and vehicles as scene_to_json() writes them, fragments left out. A file
 // of a mesh counts by its name.
 std::uint64_t hash_of(const Scene& scene);
+std::uint64_t hash_of(const StreamedScene& scene);
 
 // One body as a JSON object on one line.
 std::string body_to_json(const Body& body);

@@ -1,6 +1,8 @@
 // Writing a scene as JSON, one body per line, with the shortest digits that read back to the same float.
 #include <xxhash.h>
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -82,20 +84,31 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
     return text.take();
 }
 
-}  // namespace
-
-std::uint64_t hash_of(const Scene& scene) {
+// `others`: the bodies behind those of the scene; may be empty.
+std::uint64_t hash_with(const Scene& scene, const std::function<void(const TakeBody&)>& others) {
     const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> hash(XXH64_createState(), XXH64_freeState);
     if (!hash) throw std::bad_alloc();
     XXH64_reset(hash.get(), 0);
     const auto add = [&](const std::string& text) { XXH64_update(hash.get(), text.data(), text.size()); };
     add(text_of_fields(scene.gravity));
-    for (const Body& body : scene.bodies)
+    const auto add_body = [&](const Body& body) {
         if (body.piece_of == no_body) add(text_of_fields(body));
+    };
+    std::ranges::for_each(scene.bodies, add_body);
+    if (others) others(add_body);
     for (const Joint& joint : scene.joints) add(text_of_fields(joint));
     for (const Vehicle& vehicle : scene.vehicles) add(text_of_fields(vehicle));
     if (!is_default(scene.fields, Fields{})) add(text_of_fields(scene.fields));
     return XXH64_digest(hash.get());
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const Scene& scene) {
+    return hash_with(scene, {});
+}
+std::uint64_t hash_of(const StreamedScene& scene) {
+    return hash_with(scene.scene, scene.others);
 }
 
 std::string body_to_json(const Body& body) {

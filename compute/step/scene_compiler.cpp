@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/step/grid_layout.h"
 #include "compute/step/joint_blocks.h"
 #include "compute/step/vehicle_records.h"
 #include "shaders/physics/base/work_counts.h"
@@ -17,61 +18,24 @@ namespace scree {
 
 namespace {
 
-// Grid levels with fewer bodies than this are cheaper to scan as a list than to look up.
-constexpr std::size_t few_bodies = 24;
-constexpr std::size_t most_large = 64;
-
-float width_of(const physics::BodyProperties& properties) {
-    return physics::widest(properties.shape, properties.size);
-}
-
-// The finest cells fit the body at the tenth percentile of size: most bodies are then on the first levels, few per
-// cell.
-float cell_width(const std::vector<physics::BodyProperties>& properties, const physics::Parameters& p) {
-    std::vector<float> widths;
-    for (const physics::BodyProperties& body : properties)
-        if (!physics::is_large(body) &&
-            (body.motion == physics::MOTION_PENDING || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
-            body.shape != physics::SHAPE_NONE && !physics::is_apart(body))
-            widths.push_back(width_of(body) + physics::speculative_of(body, p));
-    if (widths.empty()) return 1;
-    const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
-    std::nth_element(widths.begin(), tenth, widths.end());
-    return 1.25f * (*tenth + glm::length(p.gravity) * p.dt * p.dt);
-}
-
-// Bodies on grid levels with too few bodies join the planes in the list of large bodies.
-void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
-    std::array<std::size_t, physics::LEVELS> population{};
-    const auto level = [&](const physics::BodyProperties& body) { return physics::level_of(width_of(body), 1 / cell); };
-    const auto listed = [](const physics::BodyProperties& body) {
-        return !physics::is_large(body) && body.shape != physics::SHAPE_NONE && !physics::is_apart(body);
-    };
-    for (const physics::BodyProperties& body : properties)
-        if (listed(body)) ++population[level(body)];
-    std::size_t room = most_large;
-    for (std::size_t l = population.size(); l-- > 0;) {
-        if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
-        room -= population[l];
-        for (physics::BodyProperties& body : properties)
-            if (listed(body) && level(body) == l) body.flags |= physics::ROW_LARGE;
-    }
-}
-
 // The grid and its list of large bodies, from the first copy of the scene: rows in the order of bodies, then parts.
 void lay_out_grid(std::vector<physics::BodyProperties>& properties, physics::Parameters& p, std::uint32_t bodies) {
-    const auto of_one = [&](std::size_t all) { return static_cast<std::ptrdiff_t>(all / p.copies); };
-    const auto n = of_one(bodies), parts = of_one(properties.size() - bodies);
-    std::vector<physics::BodyProperties> one(properties.begin(), properties.begin() + n);
-    one.insert(one.end(), properties.begin() + bodies, properties.begin() + bodies + parts);
-    p.cell = cell_width(one, p);
-    p.inverse_cell = 1 / p.cell;
-    mark_large(one, p.cell);
-    for (std::size_t row = 0; row < properties.size(); ++row) {
-        const std::size_t same = row < bodies ? row % static_cast<std::size_t>(n)
-                                              : static_cast<std::size_t>(n) + (row - bodies) % static_cast<std::size_t>(parts);
-        properties[row].flags |= one[same].flags & physics::ROW_LARGE;
-    }
+    const std::size_t rows = properties.size(), n = bodies / p.copies, parts = (rows - bodies) / p.copies;
+    const auto in_first_copy = [&](std::size_t row) { return row < bodies ? row % n : bodies + (row - bodies) % parts; };
+    const auto for_first_copy = [&](const auto& visit) {
+        for (std::size_t row = 0; row < n; ++row) visit(properties[row]);
+        for (std::size_t row = bodies; row < bodies + parts; ++row) visit(properties[row]);
+    };
+    GridLayout layout;
+    for_first_copy([&](const physics::BodyProperties& row) { layout.note_width(row, p); });
+    layout.choose_cell(p);
+    for_first_copy([&](const physics::BodyProperties& row) { layout.note_level(row); });
+    layout.choose_levels();
+    for_first_copy([&](physics::BodyProperties& row) {
+        if (layout.is_large(row)) row.flags |= physics::ROW_LARGE;
+    });
+    for (std::size_t row = 0; row < rows; ++row)
+        properties[row].flags |= properties[in_first_copy(row)].flags & physics::ROW_LARGE;
 }
 
 }  // namespace

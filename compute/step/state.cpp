@@ -150,8 +150,12 @@ SceneFeatures State::features() const {
 }
 
 void State::note_content(std::uint32_t first_row, std::uint32_t count) {
+    note_content(std::span(properties).subspan(first_row, count));
+}
+
+void State::note_content(std::span<const physics::BodyProperties> rows) {
     SceneFeatures& found = row_content_;
-    for (const physics::BodyProperties& row : std::span(properties).subspan(first_row, count)) {
+    for (const physics::BodyProperties& row : rows) {
         found.breaking |= row.fracture != physics::NONE;
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;

@@ -389,6 +389,7 @@ struct State {
     void allocate();
     void allocate_all();  // and from now on every table
     void note_content(std::uint32_t first_row, std::uint32_t count);
+    void note_content(std::span<const physics::BodyProperties> rows);  // of rows that are elsewhere, too
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // Appends a body whose row is its id.
     void append_row(std::uint32_t row) {

@@ -125,7 +125,7 @@ struct World::Impl::Edits {
 const std::vector<std::byte>& World::Impl::edits_now() const {
     if (!edits.empty()) return edits;
     ByteWriter out;
-    out.put(std::uint64_t{scene.bodies.size()});
+    out.put(std::uint64_t{bodies()});
     out.put_list(std::span(generations));
     out.put_list(std::span(gone));
     out.put_list(std::as_bytes(std::span(origins)));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "compute/world/scene_bytes.h"
+#include "compute/world/share_start.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -82,21 +83,59 @@ void World::Impl::share_out_when_due() {
 void World::Impl::share_out() {
     (void)edits_now();  // for checkpoints: from the whole scene
     runner->share_out();
-    const std::size_t bodies = scene.bodies.size();
-    const auto ranks = static_cast<std::size_t>(runner->ranks()), rank = static_cast<std::size_t>(runner->rank());
     Shared& own = shared.emplace();
-    own.bodies = bodies;
-    own.per_rank = (bodies + ranks - 1) / ranks;
-    own.first = std::min(bodies, rank * own.per_rank);
-    own.planes = solid_planes(scene, 0, bodies);
-    for (std::size_t i = 0; i < bodies; ++i) {
-        Body& body = scene.bodies[i];
-        if (const HullForm* form = form_of(body); form && own.hull_places.try_emplace(form, own.hulls.size()).second)
-            own.hulls.push_back(std::get<Hull>(body.shape));
-        if (body.motion != Motion::dynamic) own.still[i] = body;
-        if (i >= own.first && i < own.first + own.per_rank) own.home.push_back(std::move(body));
+    own.divide(scene.bodies.size(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        own.note(scene.bodies[i], i);
+        if (own.is_home(i)) own.home.push_back(std::move(scene.bodies[i]));
     }
     std::vector<Body>().swap(scene.bodies);  // its memory, too
+}
+
+void World::Impl::Shared::divide(std::size_t of_whole, std::size_t ranks, std::size_t rank) {
+    bodies = of_whole;
+    per_rank = (bodies + ranks - 1) / ranks;
+    first = std::min(bodies, rank * per_rank);
+}
+
+void World::Impl::Shared::note(const Body& body, std::size_t id) {
+    if (const HullForm* form = form_of(body); form && hull_places.try_emplace(form, hulls.size()).second)
+        hulls.push_back(std::get<Hull>(body.shape));
+    if (body.motion != Motion::dynamic) still[id] = body;
+    if (const auto* plane = std::get_if<Plane>(&body.shape); plane && body.role == Role::solid) planes.push_back(*plane);
+}
+
+// Survey first: only with all bodies seen is it known that the world can be shared out.
+std::unique_ptr<World::Impl> World::Impl::of_streamed(const StreamedScene& scene, const Settings& settings,
+                                                      std::unique_ptr<Runner> runner) {
+    const Settings with = scree::checked(settings);
+    if (runner->can_begin_shared()) {
+        ShareStart start(scene, with, runner->group_size(), static_cast<std::uint32_t>(runner->ranks()));
+        if (start.survey()) {
+            Shared own;
+            own.divide(start.bodies(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
+            const std::vector<std::uint64_t> borders = runner->borders_of(start.find_places());
+            std::vector<int> owners = start.keep_own(borders, runner->rank(), [&](const Body& body, std::size_t id) {
+                own.note(body, id);
+                if (own.is_home(id)) own.home.push_back(body);
+            });
+            return std::make_unique<Impl>(start, with, std::move(runner), std::move(own), std::move(owners));
+        }
+    }
+    return std::make_unique<Impl>(CopiedScene{scree::checked(scene.whole()), {}}, with, std::move(runner), 0);
+}
+
+World::Impl::Impl(ShareStart& start, const Settings& t, std::unique_ptr<Runner> r, Shared&& own, std::vector<int>&& owners)
+    : scene(start.scene()),
+      settings(t),
+      runner(std::move(r)),
+      state(std::move(start.state())),
+      bodies_at_start(start.bodies()),
+      shapes_at_start(StartLengths::of(state)),
+      fingerprint(start.fingerprint()) {
+    shared.emplace(std::move(own));
+    (void)edits_now();
+    runner->attach_share(state, std::move(owners), start.own_ids(), [&] { start.put_own(state); });
 }
 
 void World::Impl::make_whole() {

@@ -96,9 +96,16 @@ std::uint64_t fingerprint_of(const State& state) {
     std::vector<physics::BodyProperties> properties = state.properties;
     for (physics::BodyProperties& row : properties) row.flags &= ~physics::ROW_LARGE;  // depends on the settings
     std::uint64_t hash = hash_of(properties, 0);
+    hash = hash_of(state.poses, hash);
+    hash = hash_of(state.velocities, hash);
+    return fingerprint_of(state, hash);
+}
+
+std::uint64_t fingerprint_of(const State& state, std::uint64_t hash_of_rows) {
+    std::uint64_t hash = hash_of_rows;
     const auto add = [&](const auto&... tables) { ((hash = hash_of(tables, hash)), ...); };
-    add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points,
-        state.surfaces, state.filters, state.exclusions);
+    add(state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points, state.surfaces, state.filters,
+        state.exclusions);
     if (state.has_joints()) add(state.joints);
     if (state.fixed().vehicles) add(state.vehicles);
     return hash;

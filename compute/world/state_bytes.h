@@ -24,6 +24,8 @@ struct StartLengths {
 
 // XXH64 over what a new state has from its scene; equal for all settings, backends and threads.
 std::uint64_t fingerprint_of(const State& state);
+// Likewise, with the hash over the properties, poses and velocities of all bodies and then parts, by id, given.
+std::uint64_t fingerprint_of(const State& state, std::uint64_t hash_of_rows);
 // XXH64 over the names and record sizes of the tables: those of another one cannot be read.
 std::uint64_t layout_of_tables();
 

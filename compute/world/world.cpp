@@ -213,6 +213,8 @@ World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runne
 World::World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner)
     : interior_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings),
                                        std::move(runner), 0)) {}
+World::World(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
+    : interior_(Impl::of_streamed(scene, settings, std::move(runner))) {}
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
              const VaryCopy& vary)
     : interior_(

@@ -26,6 +26,8 @@
 
 namespace scree {
 
+class ShareStart;  // compute/world/share_start.h
+
 struct World::Impl {
     struct Held {
         std::size_t body = 0;
@@ -144,7 +146,13 @@ struct World::Impl {
         std::vector<Plane> planes;          // likewise
         std::vector<Hull> hulls;            // of all bodies, each once
         std::map<const HullForm*, std::size_t> hull_places;
+        void divide(std::size_t of_whole, std::size_t ranks, std::size_t rank);
+        void note(const Body& body, std::size_t id);  // for all bodies, in the order of ids
+        bool is_home(std::size_t id) const { return id >= first && id < first + per_rank; }
     };
+    // Begins shared out.
+    Impl(ShareStart& start, const Settings& t, std::unique_ptr<Runner> r, Shared&& own, std::vector<int>&& owners);
+    static std::unique_ptr<Impl> of_streamed(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     std::optional<Shared> shared;  // while this rank has its share alone
     int steps_until_shared = 0;
     bool can_be_shared() const;

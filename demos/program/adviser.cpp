@@ -24,14 +24,11 @@ constexpr double worth_telling = 0.2;            // of the greatest kinetic ener
 constexpr double soft = 0.005;                   // of the height, by which what is too heavy sinks and rises
 constexpr double restless_speed = 0.3;           // m/s, of a scene at rest but for jitter
 
-double median_half_width(const Scene& scene) {
-    std::vector<double> widths;
-    for (const Body& body : scene.bodies)
-        if (body.motion == Motion::dynamic) widths.push_back(static_cast<double>(least_half_width(body.shape)));
+double median_of(std::vector<float> widths) {
     if (widths.empty()) return 0;
     const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
     std::nth_element(widths.begin(), middle, widths.end());
-    return *middle;
+    return static_cast<double>(*middle);
 }
 
 // "--substeps 16", twice the present, or a higher rate once substeps are many.
@@ -84,12 +81,12 @@ void for_each_spring(const Joint& joint, Visit&& visit) {
 
 // Whether something gives energy to bodies: what moves by itself, motors, engines, and springs that are motors (of a limited
 // force, or of an angle, which jumps where it has turned around). Gravity and other springs store energy, which is counted.
-bool is_driven(const Scene& scene) {
+bool is_driving(const Body& body) {
     const auto moves = [](vec3 v) { return glm::dot(v, v) > 0; };
-    const auto pushes = [&](const Body& body) {
-        return (body.motion == Motion::kinematic && (moves(body.velocity) || moves(body.angular_velocity))) ||
-               moves(body.surface_velocity);
-    };
+    return (body.motion == Motion::kinematic && (moves(body.velocity) || moves(body.angular_velocity))) ||
+           moves(body.surface_velocity);
+}
+bool is_driven_by_more(const Scene& scene) {
     const auto gives = [](const Joint& joint) {
         bool any = false;
         for_each_spring(joint, [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>& motor) {
@@ -98,8 +95,15 @@ bool is_driven(const Scene& scene) {
         });
         return any;
     };
-    return scene.fields.any() || !scene.vehicles.empty() || std::ranges::any_of(scene.bodies, pushes) ||
-           std::ranges::any_of(scene.joints, gives);
+    return scene.fields.any() || !scene.vehicles.empty() || std::ranges::any_of(scene.joints, gives);
+}
+
+bool has_spring(const Joint& joint) {
+    bool any = false;
+    for_each_spring(joint, [&](JointAxis, const std::optional<Spring>& spring, const std::optional<Motor>&) {
+        any |= spring && spring->stiffness > 0;
+    });
+    return any;
 }
 
 struct Stored {
@@ -109,15 +113,7 @@ struct Stored {
 
 Stored stored_in_springs(const World& world) {
     const std::vector<Joint>& joints = world.scene().joints;
-    const auto springs = [](const Joint& joint) {
-        bool any = false;
-        for_each_spring(joint, [&](JointAxis, const std::optional<Spring>& spring, const std::optional<Motor>&) {
-            any |= spring && spring->stiffness > 0;
-        });
-        return any;
-    };
     Stored found;
-    if (std::ranges::none_of(joints, springs)) return found;
     const std::vector<JointState> states = world.joints();
     const std::vector<BodyState> bodies = world.bodies();
     const auto reach = [&](std::size_t body) {
@@ -140,12 +136,27 @@ Stored stored_in_springs(const World& world) {
 }  // namespace
 
 Adviser::Adviser(const World& world, bool commanded, bool sees_contacts)
+    : Adviser(world, commanded, sees_contacts, world.scene(), {}) {}
+Adviser::Adviser(const World& world, const StreamedScene& scene, bool commanded, bool sees_contacts)
+    : Adviser(world, commanded, sees_contacts, scene.scene, scene.others) {}
+
+Adviser::Adviser(const World& world, bool commanded, bool sees_contacts, const Scene& scene,
+                 const std::function<void(const TakeBody&)>& others)
     : sees_contacts_(sees_contacts),
-      closed_(!commanded && !is_driven(world.scene())),
-      half_width_(median_half_width(world.scene())),
-      dynamic_(static_cast<std::size_t>(std::count_if(world.scene().bodies.begin(), world.scene().bodies.end(),
-                                                      [](const Body& body) { return body.motion == Motion::dynamic; }))),
-      steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {}
+      has_springs_(std::ranges::any_of(scene.joints, has_spring)),
+      steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {
+    std::vector<float> half_widths;
+    bool is_driven = is_driven_by_more(scene);
+    const auto note = [&](const Body& body) {
+        is_driven |= is_driving(body);
+        if (body.motion == Motion::dynamic) half_widths.push_back(least_half_width(body.shape));
+    };
+    std::ranges::for_each(scene.bodies, note);
+    if (others) others(note);
+    closed_ = !commanded && !is_driven;
+    dynamic_ = half_widths.size();
+    half_width_ = median_of(std::move(half_widths));
+}
 
 Adviser::Sample Adviser::sample_of(const World& world, const Statistics& statistics) const {
     return {world.time(), statistics.penetration_resting, statistics.max_speed, statistics.asleep};
@@ -164,7 +175,7 @@ void Adviser::after_step(const World& world) {
 // From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart in the first second, and
 // soft contacts under a great weight give back what they took: a gain without cause is one that moves bodies.
 void Adviser::look_at_energy(const World& world, const Statistics& statistics) {
-    const Stored springs = stored_in_springs(world);
+    const Stored springs = has_springs_ ? stored_in_springs(world) : Stored{};
     const double energy = statistics.kinetic_energy + statistics.potential_energy + springs.energy;
     const double given_back = soft * std::abs(statistics.potential_energy) + springs.unsure;
     least_ = samples_.size() == 1 ? energy : std::min(least_, energy);

@@ -21,6 +21,8 @@ public:
     // `commanded`: a script, events or a recording act on the world. `sees_contacts`: they are all here; who bears too much is
     // not looked for in a world on several ranks, which would bring them to each.
     Adviser(const World& world, bool commanded, bool sees_contacts = true);
+    // The same for a world of a scene whose bodies come one after the other, which is not brought whole to a rank for it.
+    Adviser(const World& world, const StreamedScene& scene, bool commanded, bool sees_contacts);
 
     void after_step(const World& world);
     int steps_to_next(const World& world) const;  // until the next look, at least 1
@@ -34,11 +36,13 @@ private:
         double speed = 0;        // m/s, greatest
         std::size_t asleep = 0;
     };
+    Adviser(const World& world, bool commanded, bool sees_contacts, const Scene& scene,
+            const std::function<void(const TakeBody&)>& others);
     void look_at_burdens(const World& world);
     void look_at_energy(const World& world, const Statistics& statistics);
     Sample sample_of(const World& world, const Statistics& statistics) const;
 
-    bool sees_contacts_ = true;
+    bool sees_contacts_ = true, has_springs_ = false;
     bool closed_ = false;                // nothing gives energy but gravity and springs, whose energy is counted
     double least_ = 0, moved_with_ = 0;  // energy, greatest kinetic energy, J
     double gained_ = 0, gained_at_ = 0;  // J, s

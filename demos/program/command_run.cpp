@@ -309,9 +309,12 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<Adviser> adviser;
-    if (options.advises)
-        adviser.emplace(world, subject.before_step != nullptr || options.played.has_value(),
-                        !options.exchange || options.exchange->ranks() == 1);
+    const bool commanded = subject.before_step != nullptr || options.played.has_value();
+    const bool sees_contacts = !options.exchange || options.exchange->ranks() == 1;
+    if (options.advises && subject.others)
+        adviser.emplace(world, subject.streamed(), commanded, sees_contacts);
+    else if (options.advises)
+        adviser.emplace(world, commanded, sees_contacts);
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
@@ -343,12 +346,15 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
 }
 
 // The speed limit is a setting, so scene validation cannot check it.
-void note_clamped_speeds(const Scene& scene, const Settings& settings) {
-    const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+void note_clamped_speeds(const LoadedScene& subject, const Settings& settings) {
+    std::size_t count = 0;
+    const auto look = [&](const Body& body) {
         const vec3 v = body.velocity;  // squares of large floats overflow
-        return body.motion == Motion::dynamic && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y),
-                                                            static_cast<double>(v.z)) > static_cast<double>(settings.max_speed);
-    });
+        count += body.motion == Motion::dynamic && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y),
+                                                              static_cast<double>(v.z)) > static_cast<double>(settings.max_speed);
+    };
+    std::ranges::for_each(subject.scene.bodies, look);
+    if (subject.others) subject.others(look);
     if (count == 0) return;
     say("scree: note: {} faster than {:g} m/s and {} slowed to that\n",
         count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
@@ -358,6 +364,7 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 World world_of(LoadedScene& subject, const RunOptions& run, const Settings& settings, std::unique_ptr<Runner> runner,
                const VaryCopy& vary) {
     const std::size_t copies = run.copies.copies;
+    if (subject.others) return {subject.streamed(), settings, std::move(runner)};
     if (copies == 0 && run.draws) return {subject.scene, settings, std::move(runner)};
     if (copies == 0) return {std::move(subject.scene), settings, std::move(runner)};
     try {
@@ -375,6 +382,13 @@ Backend drawing_from_host(Backend machine) {
     return machine;
 }
 
+// Ranks read a scene one body after the other if no output needs the bodies of the start.
+LoadedScene load(const RunOptions& options) {
+    const bool needs_all = options.draws || options.saves || options.is_watched || options.resumed.has_value();
+    if (!options.exchange || needs_all) return load_subject(options.scene);
+    return load_streamed(options.scene, options.exchange->ranks());
+}
+
 int run(RunOptions options) {
     RunReport report;
     report.started_at = date_and_time();
@@ -382,7 +396,7 @@ int run(RunOptions options) {
     if (!options.trace.file.empty())
         options.timeline = std::make_shared<TraceFile>(options.trace.file, "scree run " + options.scene.name);
     std::optional<TimedSlice> preparing(std::in_place, options.timeline.get(), "load the scene");
-    LoadedScene subject = load_subject(options.scene);
+    LoadedScene subject = load(options);
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
     require_sense(options.copies, subject);
     const VaryCopy vary = vary_of(options.copies, options.scene);
@@ -394,10 +408,10 @@ int run(RunOptions options) {
     preparing.emplace(options.timeline.get(), "choose the backend");
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
-    if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
+    if (!options.quiet) note_clamped_speeds(subject, subject.settings(options.scene));
     preparing.emplace(options.timeline.get(), "make the world");
     std::unique_ptr<Runner> runner = options.exchange ? machine.make_runner(options.exchange) : machine.make_runner();
-    if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
+    if (!options.report.empty()) report.scene_hash = subject.others ? hash_of(subject.streamed()) : hash_of(subject.scene);
     World world = world_of(subject, options, subject.settings(options.scene), std::move(runner), vary);
     limit_memory(world, machine);
     report.copies = options.copies.copies;

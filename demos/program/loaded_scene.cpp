@@ -266,17 +266,10 @@ SceneDocument document_of(const LoadedScene& subject, const World& world, std::o
     return document;
 }
 
-LoadedScene load_subject(const SceneOptions& options) {
+namespace {
+
+const Demo& demo_named(const SceneOptions& options) {
     const Demo* demo = find_demo(options.name);
-    require_import(options);
-    if (!demo && is_file_name(options.name)) {
-        if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");
-        try {
-            return from_file(options);
-        } catch (const std::bad_alloc&) {
-            throw UsageError(options.name + ": beyond memory; " + free_memory());
-        }
-    }
     if (!demo) {
         std::vector<std::string> names;
         for (const Demo& known : all_demos()) names.emplace_back(known.name);
@@ -290,16 +283,75 @@ LoadedScene load_subject(const SceneOptions& options) {
         throw UsageError(
             fmt::format("--bodies: the demo {} has a fixed number of bodies; pile, mix and avalanche take any", demo->name));
     }
-    require_memory_for(options.bodies);
-    DemoScene built = build(*demo, {options.bodies, options.seed});
-    require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
+    return *demo;
+}
+
+LoadedScene subject_of(const Demo& demo, DemoScene built) {
     Settings settings;
     settings.sleeping = built.sleeping;
     LoadedScene subject{
-        demo->name, std::move(built.scene),       built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise),
-        settings,   std::move(built.before_step), built.picture};
+        demo.name, std::move(built.scene),       built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise),
+        settings,  std::move(built.before_step), built.picture};
+    subject.others = std::move(built.others);
+    return subject;
+}
+
+bool is_scene_file(const SceneOptions& options) {
+    return !find_demo(options.name) && is_file_name(options.name);
+}
+
+void require_no_bodies_of_file(const SceneOptions& options) {
+    if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");
+}
+
+}  // namespace
+
+LoadedScene load_subject(const SceneOptions& options) {
+    require_import(options);
+    if (is_scene_file(options)) {
+        require_no_bodies_of_file(options);
+        try {
+            return from_file(options);
+        } catch (const std::bad_alloc&) {
+            throw UsageError(options.name + ": beyond memory; " + free_memory());
+        }
+    }
+    const Demo& demo = demo_named(options);
+    require_memory_for(options.bodies);
+    DemoScene built = build(demo, {options.bodies, options.seed});
+    require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
+    LoadedScene subject = subject_of(demo, std::move(built));
     if (!options.edits.empty()) edit(subject, options.edits);
     return subject;
+}
+
+LoadedScene load_streamed(const SceneOptions& options, int ranks) {
+    if (ranks == 1 || !options.edits.empty()) return load_subject(options);
+    require_import(options);
+    if (!is_scene_file(options)) {
+        const Demo& demo = demo_named(options);
+        require_memory_for(options.bodies / static_cast<std::size_t>(ranks));
+        return subject_of(demo, build_streamed(demo, {options.bodies, options.seed}));
+    }
+    require_no_bodies_of_file(options);
+    try {
+        std::vector<std::string> notes;
+        std::optional<StreamedDocument> found = stream_scene(options.name, options.imported, &notes);
+        if (!found) return load_subject(options);
+        LoadedScene subject = subject_of(std::move(found->document), options.name);
+        subject.others = [path = options.name, bodies = std::move(found->bodies)](const TakeBody& take) {
+            try {
+                bodies(take);
+            } catch (const SceneError& error) {
+                throw UsageError(path + ": " + error.what());
+            }
+        };
+        for (const std::string& note : notes) say("scree: note: {}: {}\n", options.name, note);
+        if (options.imported.strict && !notes.empty()) throw UsageError(options.name + ": " + notes.front() + " (--strict)");
+        return subject;
+    } catch (const SceneError& error) {
+        throw UsageError(options.name + ": " + error.what());
+    }
 }
 
 }  // namespace scree::demos

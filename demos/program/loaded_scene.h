@@ -1,12 +1,14 @@
 // The scene to simulate: a demo by name, or a scene file.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "compute/scene.h"
 #include "compute/scene_file/scene_json.h"
+#include "compute/scene_stream.h"
 #include "compute/world.h"
 #include "demos/program/options.h"
 #include "demos/scenes/script.h"
@@ -27,6 +29,9 @@ struct LoadedScene {
     Script before_step{};
     PictureStyle style{};
     std::vector<TimedEvent> events{};  // of a scene file; before_step performs them
+    // Of load_streamed(): the bodies behind those of `scene`; none if null.
+    std::function<void(const TakeBody& take)> others{};
+    StreamedScene streamed() const { return {scene, others}; }
 
     Settings settings(const SceneOptions& options) const;  // the scene's settings with those of the user
     std::string title() const;                             // without the folder
@@ -35,6 +40,10 @@ struct LoadedScene {
 // Throws UsageError naming the nearest demo, the JSON pointer of an error in a file, or how many bodies (fragments
 // included) fit into memory.
 LoadedScene load_subject(const SceneOptions& options);
+
+// Likewise, for one of `ranks` of which none is to hold all bodies: those of demos and files that can come one after the other
+// stay apart.
+LoadedScene load_streamed(const SceneOptions& options, int ranks);
 
 // A scene that is described in the program. Checks it: throws SceneError. `notes`: as of scree::checked.
 LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std::string>* notes = nullptr);

@@ -87,23 +87,24 @@ Claim comes_down(double part) {
 DemoScene avalanche(const DemoOptions& options) {
     const Valley v(options.bodies);
     Scene scene;
-    scene.bodies.reserve(options.bodies + 32);
     add_valley(scene, v);
-    Random random(options.seed);
-    // Random offsets within the cell, larger for smaller stones, so that the lattice does not show.
-    const auto stray = [](float reach, Random& dice) { return dice.vector(-1, 1) * ((largest_reach - reach) * 0.577f); };
-    const auto side = static_cast<std::size_t>(v.columns);
-    for (std::size_t i = 0; i < options.bodies; ++i) {
-        const float reach = random.between(smallest_reach, largest_reach);
-        Body stone = random_mixed(reach, random);
-        const float x = v.edge() - cell * (static_cast<float>(i % side) + 0.5f);
-        const float z = cell * (static_cast<float>(i / side % side) - 0.5f * static_cast<float>(side - 1));
-        const float above = cell * (static_cast<float>(i / (side * side)) + 0.75f) / std::cos(v.incline);
-        stone.position = vec3(x, v.surface(x) + above, z) + stray(reach, random);
-        stone.density = 2600;
-        stone.friction = 0.35f;
-        scene.bodies.push_back(stone);
-    }
+    const auto stones = [v, count = options.bodies, seed = options.seed](const TakeBody& take) {
+        Random random(seed);
+        // Random offsets within the cell, larger for smaller stones, so that the lattice does not show.
+        const auto stray = [](float reach, Random& dice) { return dice.vector(-1, 1) * ((largest_reach - reach) * 0.577f); };
+        const auto side = static_cast<std::size_t>(v.columns);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float reach = random.between(smallest_reach, largest_reach);
+            Body stone = random_mixed(reach, random);
+            const float x = v.edge() - cell * (static_cast<float>(i % side) + 0.5f);
+            const float z = cell * (static_cast<float>(i / side % side) - 0.5f * static_cast<float>(side - 1));
+            const float above = cell * (static_cast<float>(i / (side * side)) + 0.75f) / std::cos(v.incline);
+            stone.position = vec3(x, v.surface(x) + above, z) + stray(reach, random);
+            stone.density = 2600;
+            stone.friction = 0.35f;
+            take(std::move(stone));
+        }
+    };
     const float back = v.edge() - v.length, top = v.surface(back) + cell * (v.layers + 1), run_out = 0.5f * v.length;
     const vec3 low(back, 0, -v.half_width), high(2 * run_out, top, v.half_width);
     std::vector<vec3> seen;
@@ -113,14 +114,16 @@ DemoScene avalanche(const DemoOptions& options) {
     }
     const float seconds = 12 * std::sqrt(std::max(1.0f, v.length / 16.6f));  // fall times grow with the square root of lengths
     const float far = 20 * v.length;
-    return {std::move(scene),
-            view_of(seen, 66, 24),
-            low,
-            high,
-            seconds,
-            Promise(because(comes_down(0.4), any_number), all_within({-far, 0, -far}, {far, far, far}),
-                    because(penetration_below(0.1), any_number), energy_never_rises(0.001))
-                .watching_energy()};
+    DemoScene made{std::move(scene),
+                   view_of(seen, 66, 24),
+                   low,
+                   high,
+                   seconds,
+                   Promise(because(comes_down(0.4), any_number), all_within({-far, 0, -far}, {far, far, far}),
+                           because(penetration_below(0.1), any_number), energy_never_rises(0.001))
+                       .watching_energy()};
+    made.others = stones;
+    return made;
 }
 
 }  // namespace scree::demos

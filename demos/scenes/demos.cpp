@@ -93,6 +93,13 @@ const Demo* find_demo(std::string_view name) {
 }
 
 DemoScene build(const Demo& demo, DemoOptions options) {
+    DemoScene made = build_streamed(demo, options);
+    if (made.others) made.others([&](Body body) { made.scene.bodies.push_back(std::move(body)); });
+    made.others = nullptr;
+    return made;
+}
+
+DemoScene build_streamed(const Demo& demo, DemoOptions options) {
     if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
     DemoScene made = demo.build(options);
     set_look(demo.name, made);
@@ -102,6 +109,13 @@ DemoScene build(const Demo& demo, DemoOptions options) {
     for (Vehicle& vehicle : made.scene.vehicles)
         for (WayPoint& point : vehicle.route) point.position += offset;
     for (ViewKey& key : made.viewpoint.path) key.eye += offset, key.target += offset;
+    if (made.others && options.offset != 0)
+        made.others = [others = std::move(made.others), offset](const TakeBody& take) {
+            others([&](Body body) {
+                body.position += offset;
+                take(std::move(body));
+            });
+        };
     return made;
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compute/scene.h"
 #include "compute/scene_file/scene_json.h"
+#include "compute/scene_stream.h"
 #include "demos/scenes/script.h"
 #include "demos/suite/common_checks.h"
 
@@ -29,6 +31,8 @@ struct DemoScene {
     bool sleeping = true;     // false in scenes that must stand awake
     Script before_step = {};  // scripted actions during the run; not part of a scene file
     PictureStyle picture = {};
+    // The bodies behind those of `scene`, one after the other, as of StreamedScene (compute/scene_stream.h); build() adds them.
+    std::function<void(const TakeBody& take)> others = {};
 };
 
 struct Demo {
@@ -41,9 +45,10 @@ struct Demo {
 };
 
 const std::vector<Demo>& all_demos();
-const Demo* find_demo(std::string_view name);            // null if unknown
-DemoScene build(const Demo& demo, DemoOptions options);  // bodies 0: the default
-DemoScene awake(DemoScene scene);                        // the scene with sleep off
+const Demo* find_demo(std::string_view name);                     // null if unknown
+DemoScene build(const Demo& demo, DemoOptions options);           // bodies 0: the default
+DemoScene build_streamed(const Demo& demo, DemoOptions options);  // with `others` apart
+DemoScene awake(DemoScene scene);                                 // the scene with sleep off
 
 DemoScene rest(const DemoOptions&);
 DemoScene stack(const DemoOptions&);

@@ -18,26 +18,29 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
     const std::size_t count = options.bodies;
     const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))));
     Scene scene;
-    scene.bodies.reserve(count + 5);
     scene.bodies.push_back(ground());
     const float half = 0.5f * pile_cell * static_cast<float>(side) + 0.1f;
     const float wall = 0.4f * pile_cell * static_cast<float>(side);
     add_pit(scene, {half, wall, half}, 0.5f);
-    Random random(options.seed);
-    float top = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto place_of = [side](std::size_t i) {
         const auto n = static_cast<std::size_t>(side);
-        Body body = make(random.between(smallest_reach, pile_reach), random);
         const vec3 place(static_cast<float>(i % n) - 0.5f * static_cast<float>(side - 1), static_cast<float>(i / (n * n)) + 0.55f,
                          static_cast<float>(i / n % n) - 0.5f * static_cast<float>(side - 1));
-        body.position = place * pile_cell;
-        top = body.position.y + pile_reach;
-        scene.bodies.push_back(body);
-    }
+        return place * pile_cell;
+    };
+    const auto bodies = [=, seed = options.seed](const TakeBody& take) {
+        Random random(seed);
+        for (std::size_t i = 0; i < count; ++i) {
+            Body body = make(random.between(smallest_reach, pile_reach), random);
+            body.position = place_of(i);
+            take(std::move(body));
+        }
+    };
+    const float top = count == 0 ? 0 : place_of(count - 1).y + pile_reach;
     const float outside = half + 0.5f;
     const vec3 low(-outside, 0, -outside), high(outside, top, outside);
     const float seconds = 8 + 0.2f * static_cast<float>(side);  // higher lattices fall and settle longer
-    return {
+    DemoScene made{
         std::move(scene),
         view_of(low, high, 35, 38),
         low,
@@ -46,6 +49,8 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
         Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), because(penetration_below(0.05), any_number),
                 energy_never_rises(0.001), because(end_speed_below(0.005), any_number), because(end_spin_below(0.01), any_number))
             .watching_energy()};
+    made.others = bodies;
+    return made;
 }
 
 }  // namespace

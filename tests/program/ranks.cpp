@@ -51,6 +51,29 @@ TEST_CASE("program: a world on several processes ends with the hash of one", "[p
     }
 }
 
+TEST_CASE("program: several processes read a scene file one body after the other, and end with the hash of one",
+          "[program][ranks]") {
+    if (cannot_run()) return;
+    const Place place;
+    const std::string file = "'" + (place / "pile.json").string() + "'", run = "run " + file + " --threads 1 --quiet --report - ";
+    REQUIRE(run_scree("export pile --bodies 100 --output " + file).status == 0);
+    const std::string steps = "--steps 40 ";
+    const Outcome alone = run_scree(run + steps + "--backend cpu"), outcome = run_scree(run + steps + "--distributed", ranks(2));
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 0);
+    REQUIRE(hash_after(alone.output).size() == 16);
+    CHECK(hash_after(outcome.output) == hash_after(alone.output));
+    const std::regex scene_hash("\"scene_hash\": \"[0-9a-f]{16}\"");
+    std::smatch one, two;
+    REQUIRE((std::regex_search(alone.output, one, scene_hash) && std::regex_search(outcome.output, two, scene_hash)));
+    CHECK(one[0] == two[0]);
+
+    const std::string bad = R"({"bodies": [{"shape": {"sphere": {"radius": 1}}, "density": -3}]})";
+    const Outcome refused = run_scree("run '" + place.write("bad.json", bad) + "' --steps 3 --distributed", ranks(2));
+    CHECK(refused.status == 2);
+    CHECK(says(refused.errors, "bad.json: /bodies/0/density"));
+}
+
 TEST_CASE("program: a world on the devices of several processes ends with the hash of one CPU, and is drawn alike",
           "[program][ranks][vulkan]") {
     if (cannot_run()) return;

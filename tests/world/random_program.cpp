@@ -307,8 +307,21 @@ RandomProgram random_program(std::uint32_t seed) {
     }
 }
 
+namespace {
+
+// On ranks of a streamed scene.
+World world_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
+    if (runner->ranks() == 1) return {program.scene, program.settings, std::move(runner)};
+    StreamedScene streamed{program.scene};
+    streamed.scene.bodies.clear();
+    streamed.others = [&bodies = program.scene.bodies](const TakeBody& take) { std::ranges::for_each(bodies, take); };
+    return {streamed, program.settings, std::move(runner)};
+}
+
+}  // namespace
+
 std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
-    World world(program.scene, program.settings, std::move(runner));
+    World world = world_of(program, std::move(runner));
     std::optional<std::vector<std::byte>> mark;
     std::vector<std::string> lines;
     std::size_t next = 0;
