@@ -42,6 +42,8 @@ public:
     }
     // Brings the contacts that this rank alone has to where the host reads them.
     virtual void download_own_contacts() {}
+    // Likewise all that it has of a world that is shared out.
+    virtual void download_share() {}
     // Between steps: whether each rank can do with its share of the attached tables, and dropping and getting back the rest.
     virtual bool can_share_out() const { return false; }
     virtual void share_out() {}

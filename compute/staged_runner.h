@@ -9,6 +9,8 @@ class StagedRunner : public Runner {
 public:
     // Begins a step, or its repetition, with the state's parameters and actions.
     virtual void begin_step() = 0;
+    // Goes on with the step after adapt() within it.
+    virtual void resume_step() = 0;
     // Runs the plan's stages from `first` up to `last`, and waits for them; upload() and download() may come in between. An
     // overflow is noted in the table of counts, and later stages then do nothing.
     virtual void run_stages(std::size_t first, std::size_t last) = 0;

@@ -417,7 +417,8 @@ std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device)
 }
 
 std::unique_ptr<Runner> make_distributed_runner(std::shared_ptr<Exchange> exchange, std::shared_ptr<host::Device> device) {
-    return std::make_unique<DistributedRunner>(std::move(exchange), 0, std::make_unique<DeviceRunner>(std::move(device)));
+    return std::make_unique<DistributedRunner>(std::move(exchange), 0,
+                                               [device = std::move(device)] { return std::make_unique<DeviceRunner>(device); });
 }
 
 }  // namespace scree

@@ -69,6 +69,7 @@ public:
 
     // A step stage by stage, unfused, for ranks and lockstep, which also reads and writes tables.
     void begin_step() override;
+    void resume_step() override { give_inputs(); }
     void run_stages(std::size_t first, std::size_t last) override;
     void read(Table table, std::span<std::byte> bytes, std::size_t offset = 0) const;
     void write(Table table, std::span<const std::byte> bytes);

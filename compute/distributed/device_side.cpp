@@ -37,6 +37,13 @@ void DeviceSide::attach(State& state) {
     marks_.clear();
 }
 
+void DeviceSide::attach_anew() {
+    if (!device_) return;
+    device_.reset();
+    device_ = make_();
+    attach(*state_);
+}
+
 void DeviceSide::adapt() {
     if (!device_) return;
     state_->allocate_all();
@@ -126,6 +133,32 @@ void DeviceSide::fetch_contacts_of_sleepers() {
     }
     fetch({Table::first_contacts});
     fetch({{Table::contacts_before, 0, state.first_contacts[state.fixed().bodies]}});
+}
+
+void DeviceSide::fetch_for_new_rows() {
+    if (!device_) return;
+    fetch({Table::properties, Table::strains, Table::slot_ends, Table::first_contacts});
+    const std::size_t count = state_->first_contacts[state_->fixed().bodies];
+    fetch({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
+}
+
+void DeviceSide::store_new_rows(const Share::Changes& changes) {
+    if (!device_) return;
+    if (!changes.moved) {
+        std::vector<std::uint32_t> rows = changes.rows;
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        TableRanges records;
+        for (const Table table : {Table::properties, Table::ids, Table::strains}) append_rows(records, table, rows);
+        return store(records);
+    }
+    marks_.clear();
+    adapt();
+    const std::size_t count = state_->first_contacts[state_->fixed().bodies];
+    store({Table::properties, Table::ids, Table::poses, Table::velocities, Table::forces, Table::sleep_states, Table::masses,
+           Table::strains, Table::slot_ends, Table::first_contacts});
+    store({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
+    device_->resume_step();
 }
 
 void DeviceSide::mark_presence() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <vector>
@@ -17,11 +18,13 @@ namespace scree {
 // Without a device, on a rank of the CPU, fetch() and store() do nothing: its stages work in the host's tables.
 class DeviceSide {
 public:
-    explicit DeviceSide(std::unique_ptr<StagedRunner> device) : device_(std::move(device)) {}
+    using Make = std::function<std::unique_ptr<StagedRunner>()>;
+    explicit DeviceSide(Make make) : make_(std::move(make)), device_(make_ ? make_() : nullptr) {}
     explicit operator bool() const { return device_ != nullptr; }
     StagedRunner& runner() const { return *device_; }
 
     void attach(State& state);
+    void attach_anew();  // with as much memory as the tables take now, which the host has whole
     void adapt();
     void adapt_if_changed();  // tables became longer or shorter since
 
@@ -44,12 +47,18 @@ public:
     // Those that keep bodies asleep in touch, once the tables were turned over; none if no body of this rank is asleep.
     void fetch_contacts_of_sleepers();
 
+    // Within a step, around Halo::find() in a share: brings what share.take_in() moves and asks of contacts, and takes over the
+    // rows that it has changed.
+    void fetch_for_new_rows();
+    void store_new_rows(const Share::Changes& changes);
+
     // Tells the device which rows other ranks move (ROW_FOREIGN, ROW_ELSEWHERE), where that has changed.
     void mark_presence();
 
 private:
     TableRanges ranges(std::initializer_list<Table> tables, Rows rows) const;
 
+    Make make_;
     std::unique_ptr<StagedRunner> device_;
     State* state_ = nullptr;
     TableLengths adapted_;

@@ -47,18 +47,11 @@ void DistributedRunner::attach(State& state) {
     if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
     state_ = &state;
     device_.attach(state);
-    any_on_device_ = any_has_device();
     adapt();
 }
 
-bool DistributedRunner::any_has_device() const {
-    std::uint32_t any[1] = {device_ ? 1u : 0u};
-    exchange_->unite(any);
-    return any[0] != 0;
-}
-
 bool DistributedRunner::can_begin_shared() const {
-    return exchange_->ranks() > 1 && !any_has_device();
+    return exchange_->ranks() > 1;
 }
 
 std::vector<std::uint64_t> DistributedRunner::borders_of(std::vector<std::uint64_t> places) {
@@ -74,6 +67,8 @@ void DistributedRunner::attach_share(State& state, std::vector<int> owners, std:
     share_.take_in(state, own);
     fill();
     ownership_.place(state, *exchange_);
+    (void)share_.changes();
+    device_.attach(state);
     adapt();
 }
 
@@ -122,21 +117,31 @@ void DistributedRunner::adapt() {
 bool DistributedRunner::can_share_out() const {
     const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
     const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
-    return !any_on_device_ && exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) &&
-           Share::can_be_made(*state_);
+    return exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
 }
 
 void DistributedRunner::share_out() {
     State& state = *state_;
+    download_share();
     if (state.presence.empty()) ownership_.place(state, *exchange_);
     share_.make(state);
+    device_.attach_anew();
     ownership_.forget_groups();
     halo_.forget();
     adapt();
 }
 
+void DistributedRunner::download_share() {
+    if (!device_ || std::exchange(has_share_on_host_, true)) return;
+    using enum Table;
+    device_.fetch({properties, poses, velocities, sleep_states, strains, masses, slot_ends});
+    device_.fetch_contacts();
+}
+
 void DistributedRunner::make_whole() {
+    download_share();
     share_.end(*state_, *exchange_);
+    device_.attach_anew();
     placed_bodies_ = state_->fixed().first_part;
     halo_.forget();
     adapt();
@@ -147,6 +152,7 @@ bool DistributedRunner::step() {
     State& state = *state_;
     if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
     gathered_.assign(table_count, false);
+    has_share_on_host_ = false;
     device_.adapt_if_changed();
     if (std::exchange(edited_contacts_, false)) device_.store_contacts();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
@@ -204,6 +210,7 @@ void DistributedRunner::move_bodies_between_ranks() {
     state.turn_over();
     device_.adapt_if_changed();
     device_.store(lasting());
+    if (share_.changes().any()) device_.store({Table::ids});
     state.turn_over();
 }
 

@@ -23,9 +23,9 @@ namespace scree {
 
 class DistributedRunner : public Runner {
 public:
-    // `device`: runs the stages; null: the CPU does, with `threads` threads.
-    DistributedRunner(std::shared_ptr<Exchange> exchange, int threads, std::unique_ptr<StagedRunner> device = nullptr)
-        : exchange_(std::move(exchange)), threads_(threads), device_(std::move(device)) {}
+    // `make_device`: makes the runner of the stages; null: the CPU runs them, with `threads` threads.
+    DistributedRunner(std::shared_ptr<Exchange> exchange, int threads, DeviceSide::Make make_device = nullptr)
+        : exchange_(std::move(exchange)), threads_(threads), device_(std::move(make_device)) {}
     std::string backend() const override { return device_ ? "vulkan" : "cpu"; }
     std::string device() const override;
     std::uint32_t group_size() const override { return device_ ? device_.runner().group_size() : 64; }
@@ -35,6 +35,7 @@ public:
     int rank() const override { return exchange_->rank(); }
     std::vector<Bytes> swap(const std::vector<Bytes>& to) const override { return exchange_->swap(to); }
     void download_own_contacts() override;
+    void download_share() override;
     bool can_share_out() const override;
     void share_out() override;
     void make_whole() override;
@@ -65,7 +66,6 @@ private:
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };
-    bool any_has_device() const;
     bool say(Talk what);   // talk(), timed
     bool talk(Talk what);  // false: the step is to be repeated with longer lists
     void run(std::size_t stage);
@@ -90,8 +90,9 @@ private:
     std::shared_ptr<Exchange> exchange_;
     Threads threads_;
     DeviceSide device_;
-    bool profiles_device_ = false, any_on_device_ = false;  // the latter: some rank
-    bool edited_contacts_ = false;                          // on the host, since the last step
+    bool profiles_device_ = false;
+    bool has_share_on_host_ = false;  // what the device has of it, since the last step
+    bool edited_contacts_ = false;    // on the host, since the last step
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     std::vector<Talk> before_, after_;  // by stage

@@ -185,6 +185,7 @@ void Share::end(State& state, Exchange& exchange) {
     Rearrangement(state, std::move(from), first_part).move(true);
     state.first_part_id.reset();
     free_.clear();
+    changes_ = {};
     drop_caches(state);
     const std::vector<Bytes> told = exchange.gather(said);
     for (std::size_t r = 0; r < told.size(); ++r) {
@@ -207,7 +208,10 @@ void Share::take_in(State& state, std::span<const std::uint32_t> ids) {
     if (!state.is_share()) return;
     const auto is_missing = [&](std::uint32_t id) { return state.row_of(id) == physics::NONE; };
     const auto missing = [&] { return static_cast<std::uint32_t>(std::count_if(ids.begin(), ids.end(), is_missing)); };
-    if (missing() > free_.size()) reclaim(state);
+    if (missing() > free_.size()) {
+        if (before_change) before_change();
+        reclaim(state);
+    }
     // Counted again: rows of these ids may have been among those.
     if (const std::uint32_t needed = missing(); needed > free_.size())
         grow(state, needed - static_cast<std::uint32_t>(free_.size()));
@@ -217,6 +221,7 @@ void Share::take_in(State& state, std::span<const std::uint32_t> ids) {
         free_.pop_back();
         state.ids[row] = id;
         state.assign_row(id, row);
+        changes_.rows.push_back(row);
     }
 }
 
@@ -231,10 +236,12 @@ void Share::reclaim(State& state) {
         state.ids[row] = physics::NONE;
         state.properties[row] = empty_row(row);
         free_.push_back(row);
+        changes_.rows.push_back(row);
     }
 }
 
 void Share::grow(State& state, std::uint32_t rows) {
+    changes_.moved = true;
     const std::uint32_t before = state.fixed().first_part, first_part = with_room(before + rows);
     std::vector<std::uint32_t> from(before);
     std::iota(from.begin(), from.end(), 0u);

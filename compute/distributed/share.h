@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compute/distributed/exchange.h"
@@ -28,6 +30,15 @@ public:
     // Between steps: the tables have all rows again, those of bodies that are not owned as their owners say.
     void end(State& state, Exchange& exchange);
 
+    // What take_in() has done to rows since changes() was last asked.
+    struct Changes {
+        bool moved = false;               // tables grew, and the rows of parts moved
+        std::vector<std::uint32_t> rows;  // that have come to another body, or to none
+        bool any() const { return moved || !rows.empty(); }
+    };
+    Changes changes() { return std::exchange(changes_, {}); }
+    // Called before rows are taken from bodies elsewhere, or tables grow; may be null.
+    std::function<void()> before_change;
     // While a step begins: gives rows to bodies that come. Their records are the caller's; until then they are absent.
     void take_in(State& state, std::span<const std::uint32_t> ids);
 
@@ -36,6 +47,7 @@ private:
     void grow(State& state, std::uint32_t rows);
 
     std::vector<std::uint32_t> free_;
+    Changes changes_;
 };
 
 }  // namespace scree

@@ -41,7 +41,10 @@ bool DistributedRunner::talk(Talk what) {
         case Talk::ghosts:
             device_.fetch({poses, velocities, forces, sleep_states, masses});
             device_.fetch_contacts_of_sleepers();
+            if (device_) share_.before_change = [&] { device_.fetch_for_new_rows(); };
             halo_.find(*state_, ownership_, *exchange_, share_);
+            share_.before_change = nullptr;
+            if (const Share::Changes changes = share_.changes(); changes.any()) device_.store_new_rows(changes);
             device_.take_rows(halo_);
             device_.mark_presence();
             device_.store({poses, velocities, forces, sleep_states, masses}, Rows::ghosts);

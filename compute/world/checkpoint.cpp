@@ -423,6 +423,7 @@ void World::save_in_pieces(const TakePiece& take) const {
 
 void World::Impl::put_shares(const TakePiece& take) const {
     const bool first = runner->rank() == 0;
+    runner->download_share();
     const StateParts parts(state, *runner);
     ByteWriter front, back;
     front.put_list(std::span<const std::byte>(edits));  // since the shares were made

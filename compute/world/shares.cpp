@@ -57,6 +57,7 @@ void World::share_out() {
 std::optional<World::Share> World::share() const {
     const Impl& in = interior_.as_it_is();
     if (!in.shared) return std::nullopt;
+    in.runner->download_share();
     return Share{in.state, in.shared->still, in.shared->hulls};
 }
 
@@ -169,6 +170,7 @@ void World::Impl::make_whole() {
 
 // Of the bodies at home here, in the order of ids.
 std::vector<BodyRecord> World::Impl::records_at_home() const {
+    runner->download_share();
     std::vector<Bytes> to(static_cast<std::size_t>(runner->ranks()));
     std::vector<BodyRecord> records(shared->home.size());
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)

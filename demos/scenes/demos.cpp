@@ -92,10 +92,14 @@ const Demo* find_demo(std::string_view name) {
     return found == demos.end() ? nullptr : &*found;
 }
 
+void DemoScene::add_others() {
+    if (others) others([&](Body body) { scene.bodies.push_back(std::move(body)); });
+    others = nullptr;
+}
+
 DemoScene build(const Demo& demo, DemoOptions options) {
     DemoScene made = build_streamed(demo, options);
-    if (made.others) made.others([&](Body body) { made.scene.bodies.push_back(std::move(body)); });
-    made.others = nullptr;
+    made.add_others();
     return made;
 }
 

@@ -33,6 +33,7 @@ struct DemoScene {
     PictureStyle picture = {};
     // The bodies behind those of `scene`, one after the other, as of StreamedScene (compute/scene_stream.h); build() adds them.
     std::function<void(const TakeBody& take)> others = {};
+    void add_others();  // to the scene's bodies
 };
 
 struct Demo {

@@ -125,6 +125,7 @@ DemoScene calm(const DemoOptions& options) {
     heap.bodies = options.bodies;
     heap.seed = options.seed + 2;  // not those of `assortment`
     DemoScene made = assortment(heap);
+    made.add_others();
     return resting(std::move(made.scene), made.low, made.high, {});
 }
 
