@@ -280,8 +280,15 @@ void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
     if (state_->presence.empty()) return device_.fetch(ranges);  // all is here
     if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
-    for (const TableRange& range : ranges)
-        if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
+    for (TableRange range : ranges) {
+        if (gathered_[static_cast<std::size_t>(range.table)]) continue;
+        if (range.table == Table::joints || range.table == Table::vehicles) {  // gathered as a whole
+            const auto is_same = [&](const TableRange& other) { return other.table == range.table; };
+            if (std::any_of(missing.begin(), missing.end(), is_same)) continue;
+            range = range.table == Table::joints ? joint_ranges(*state_).front() : vehicle_ranges(*state_).front();
+        }
+        missing.push_back(range);
+    }
     fetch_from_device(missing);
     gather_ranges(*state_, *exchange_, missing);
     using enum Table;
