@@ -248,7 +248,8 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
             return range.table == table && range.first == 0 && range.count >= state_->fixed().bodies;
         });
     };
-    if (has_whole(Table::poses) && has_whole(Table::first_contacts)) state_->presence.clear();
+    if (has_whole(Table::poses) && has_whole(Table::first_contacts))
+        std::vector<Presence>().swap(state_->presence);  // so that sanitizers see who looks behind its new end
     if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)])
         return device_.store(ranges);
     // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.

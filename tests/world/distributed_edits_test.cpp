@@ -38,7 +38,7 @@ TEST_CASE("a world on ranks keeps the contacts of all of them when all bodies ar
     for (const int ranks : {2, 3}) tests::check_alike(tests::told_by_ranks(ranks, scene, script), expected);
 }
 
-// With libstdc++'s assertions a look at the presence of rows that are no more ends the test.
+// Under the address sanitizer a look at the presence of rows that are no more ends the test; otherwise nothing shows it.
 TEST_CASE("ghosts of bodies that a restore takes away are forgotten", "[world][ranks]") {
     const Scene scene = tests::packed(40);
     const tests::TellingScript script = [&](World& world) {
