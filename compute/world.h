@@ -192,9 +192,10 @@ public:
     // (std::bad_alloc, std::length_error or the device's own error): then the bodies are as after the last whole step,
     // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error.
     void step(int count = 1);
-    // Memory that the tables of a step may take, bytes, from the next step on; on a device its own memory. Default: no limit.
-    // A step whose pairs and contacts need more throws std::length_error, which names the step, the numbers, the bytes and
-    // the body with most pairs, before any of it is allocated. No result depends on the limit.
+    // Memory that the tables of a step may take, bytes, from the next step on; on a device its own memory, but on a rank the
+    // host's, also beside a device. Default: no limit. A step whose pairs and contacts need more throws std::length_error, which
+    // names the step, the numbers, the bytes and the body with most pairs (not on devices of ranks), before any of it is
+    // allocated. No result depends on the limit.
     void set_memory_limit(std::size_t bytes);
 
     // ---- copies of the scene. Functions that take a copy throw std::out_of_range for one that is not there. A world of

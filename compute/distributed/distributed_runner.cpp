@@ -279,7 +279,8 @@ void DistributedRunner::send(const std::vector<TableRange>& ranges) {
             return range.table == table && range.first == 0 && range.count >= state_->fixed().bodies;
         });
     };
-    if (has_whole(Table::poses) && has_whole(Table::first_contacts)) state_->presence.clear();
+    if (has_whole(Table::poses) && has_whole(Table::first_contacts))
+        std::vector<Presence>().swap(state_->presence);  // so that sanitizers see who looks behind its new end
     if (!device_ || state_->presence.empty() || !gathered_[static_cast<std::size_t>(Table::contacts)])
         return device_.store(ranges);
     // The host has the contacts of all ranks, in other places than the device has its own: the next step brings those.
@@ -311,8 +312,15 @@ void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
     if (state_->presence.empty()) return device_.fetch(ranges);  // all is here
     if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
-    for (const TableRange& range : ranges)
-        if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
+    for (TableRange range : ranges) {
+        if (gathered_[static_cast<std::size_t>(range.table)]) continue;
+        if (range.table == Table::joints || range.table == Table::vehicles) {  // gathered as a whole
+            const auto is_same = [&](const TableRange& other) { return other.table == range.table; };
+            if (std::any_of(missing.begin(), missing.end(), is_same)) continue;
+            range = range.table == Table::joints ? joint_ranges(*state_).front() : vehicle_ranges(*state_).front();
+        }
+        missing.push_back(range);
+    }
     fetch_from_device(missing);
     gather_ranges(*state_, *exchange_, missing);
     using enum Table;

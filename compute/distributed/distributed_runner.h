@@ -80,7 +80,7 @@ private:
     void tell_wake();
     void tell_ends();
     void tell_quarantined();
-    void tell_vehicles_in_quarantine();
+    void tell_ownerless(bool breaks);
     void tell_broken();
     void fetch_from_device(const std::vector<TableRange>& ranges);
     void forget_contacts();  // of other ranks, which were read

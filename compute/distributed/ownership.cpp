@@ -300,11 +300,20 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
         const physics::JointBlock& block = state.joint_blocks[i];
+        int of_block = -1;
+        for (std::uint32_t k = block.first_body; k < block.first_body + block.bodies; ++k)
+            of_block = std::max(of_block, leaves_for(state.block_bodies[k].body));
         for (std::uint32_t k = block.first_joint; k < block.first_joint + block.joints; ++k) {
-            // Not all of a block: a new joint may have united it with one of the other rank.
+            // Not all of a block: a new joint may have united it with one of the other rank. A joint whose ends are both in
+            // quarantine, or broken, goes with the others.
             int target = -1;
-            for (const std::uint32_t end : {state.joints[k].a, state.joints[k].b})
-                if (end != physics::NONE) target = std::max(target, leaves_for(end));
+            bool is_dead = true;
+            for (const std::uint32_t end : {state.joints[k].a, state.joints[k].b}) {
+                if (end == physics::NONE || !is_dynamic(state, end)) continue;
+                is_dead = false;
+                target = std::max(target, leaves_for(end));
+            }
+            if (is_dead) target = of_block;
             if (target < 0) continue;
             put(joints[static_cast<std::size_t>(target)], k);
             put(joints[static_cast<std::size_t>(target)], state.joints[k]);

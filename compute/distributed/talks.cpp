@@ -1,5 +1,6 @@
 // What ranks tell each other between the stages of a step.
 #include <algorithm>
+#include <span>
 
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/packing.h"
@@ -188,7 +189,7 @@ void DistributedRunner::tell_quarantined() {
         put(said, state.id_of(row));
         put(said, state.masses[row].split_state);
     }
-    tell_vehicles_in_quarantine();
+    tell_ownerless(/* breaks */ false);
     for (const Bytes& told : exchange_->gather(said))
         for (Unpacker from(told); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
@@ -201,28 +202,54 @@ void DistributedRunner::tell_quarantined() {
         }
 }
 
-// From then on every rank drives them alike, like whatever does not move. Before the others know of the quarantine.
-void DistributedRunner::tell_vehicles_in_quarantine() {
+// Joints of blocks that lose their last body, and vehicles that lose their chassis: from then on every rank has them alike, and
+// drives what is in quarantine alike, like whatever does not move. `breaks`: with bodies that break, which are known by then.
+void DistributedRunner::tell_ownerless(bool breaks) {
     State& state = *state_;
-    if (state.fixed().vehicles == 0) return;
-    device_.fetch(vehicle_ranges(state));
-    Bytes said;
+    if (!state.has_joints() && state.fixed().vehicles == 0) return;
+    const auto stays = [&](std::uint32_t row) {
+        return state.is_owned(row) && !physics::is_quarantined(state.properties[row].motion) &&
+               !(breaks && state.forces[row].kept < 1);
+    };
+    TableRanges lost;
+    for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
+        const physics::JointBlock& block = state.joint_blocks[i];
+        const std::span members = std::span(state.block_bodies).subspan(block.first_body, block.bodies);
+        if (state.owns_block(block) && std::none_of(members.begin(), members.end(), [&](const auto& m) { return stays(m.body); }))
+            lost.push_back({Table::joints, block.first_joint, block.joints});
+    }
     for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
         const std::uint32_t chassis = state.vehicles[i].dynamics.chassis;
-        if (!state.is_owned(chassis) || !physics::is_quarantined(state.properties[chassis].motion)) continue;
-        put(said, i);
-        put(said, state.vehicles[i]);
+        if (state.is_owned(chassis) && !stays(chassis)) lost.push_back({Table::vehicles, i, 1});
     }
+    device_.fetch(lost);
+    Bytes said;
+    for (const TableRange& range : lost)
+        for (std::size_t k = range.first; k < range.first + range.count; ++k) {
+            put(said, range.table);
+            put(said, k);
+            if (range.table == Table::joints)
+                put(said, state.joints[k]);
+            else
+                put(said, state.vehicles[k]);
+        }
+    TableRanges found;
     for (const Bytes& told : exchange_->gather(said))
         for (Unpacker from(told); from.has_more();) {
-            const auto i = from.take<std::uint32_t>();
-            from.take(state.vehicles[i]);
+            const auto table = from.take<Table>();
+            const auto k = from.take<std::size_t>();
+            if (table == Table::joints)
+                from.take(state.joints[k]);
+            else
+                from.take(state.vehicles[k]);
+            found.push_back({table, k, 1});
         }
-    device_.store(vehicle_ranges(state));
+    device_.store(found);
 }
 
 void DistributedRunner::tell_broken() {
     State& state = *state_;
+    tell_ownerless(/* breaks */ true);
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (state.is_owned(row) && state.forces[row].kept < 1)

@@ -95,9 +95,13 @@ void World::Impl::make_room_for_actions() {
 std::string World::Impl::most_paired_body() const {
     const std::uint32_t bodies = state.fixed().bodies;
     const bool is_rank = runner->ranks() > 1;
-    if (bodies == 0 || (is_rank && runner->backend() != "cpu")) return "";
+    const physics::uint overflow = state.counted().overflow;
+    if (bodies == 0 || (is_rank && (runner->backend() != "cpu" || overflow == 0))) return "";
     if (!is_rank) runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
-    const auto pairs_of = [&](std::uint32_t row) { return state.pair_starts[row + 1] - state.pair_starts[row]; };
+    const bool are_counts = is_rank && (overflow & physics::OVERFLOW_PAIRS) != 0;  // its step ended before they were summed
+    const auto pairs_of = [&](std::uint32_t row) {
+        return are_counts ? state.pair_starts[row] : state.pair_starts[row + 1] - state.pair_starts[row];
+    };
     std::uint32_t most = 0;
     for (std::uint32_t row = 1; row < bodies; ++row)
         if (pairs_of(row) > pairs_of(most)) most = row;

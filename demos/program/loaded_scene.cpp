@@ -221,11 +221,13 @@ void require_memory_for(std::size_t bodies) {
                                  static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
 }
 
+// A rank has its tables on the host, whatever device has them too; one of a software device has them there twice.
 void limit_memory(World& world, const Backend& machine) {
-    if (machine.options.memory != 0)
-        world.set_memory_limit(machine.options.memory);
-    else if (!machine.has_own_memory())
-        world.set_memory_limit(world.buffer_bytes() + static_cast<std::size_t>(available_memory()));
+    const bool on_host = world.runner().in_place();
+    if (machine.options.memory != 0) return world.set_memory_limit(machine.options.memory);
+    if (machine.has_own_memory() && !on_host) return;
+    const double free = available_memory() / (on_host && machine.device && !machine.has_own_memory() ? 2 : 1);
+    world.set_memory_limit(world.buffer_bytes() + static_cast<std::size_t>(free));
 }
 
 LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std::string>* notes) {

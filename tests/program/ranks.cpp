@@ -99,6 +99,25 @@ TEST_CASE("program: a world on the devices of several processes ends with the ha
     CHECK(hash_after(run_scree(later + " --backend vulkan --distributed", ranks(2)).output) == resumed);
 }
 
+TEST_CASE("program: a step that needs more memory than ranks are allowed ends them all, and says so",
+          "[program][ranks][vulkan]") {
+    if (cannot_run()) return;
+    const Place place;
+    std::string text = R"({"bodies": [)";
+    for (int i = 0; i < 1200; ++i)  // in two places, for two ranks
+        text += std::string(i ? "," : "") + R"({"shape":{"box":{"half_extents":[1,1,1]}},"position":[)" +
+                std::to_string(i % 2 * 100) + ",5,0]}";
+    const std::string run = "run '" + place.write("crowds.json", text + "]}") + "' --steps 3 -q --memory 20M --distributed";
+    for (const std::string backend : {"cpu", "vulkan"}) {
+        const Outcome ended = run_scree(run + " --backend " + backend, ranks(2));
+        INFO(backend << "\n" << ended.errors);
+        CHECK(ended.status == 1);
+        CHECK(says(ended.errors, "step 1 is beyond memory: 179700 pairs"));
+        CHECK(says(ended.errors, "0.02 GB are allowed"));
+        CHECK(says(ended.errors, "alone may touch 599 others") == (backend == "cpu"));
+    }
+}
+
 TEST_CASE("program: a checkpoint of two processes is resumed by one and by three, to the same hash", "[program][ranks]") {
     if (cannot_run()) return;
     const Place place;

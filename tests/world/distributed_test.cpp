@@ -88,30 +88,6 @@ private:
     bool travels_ = false;
 };
 
-// An exchange that fails at one of the things that its rank says.
-class FailingExchange : public Exchange {
-public:
-    explicit FailingExchange(std::shared_ptr<Exchange> inner) : inner_(std::move(inner)) {}
-    [[noreturn]] void end_all(int status) override {
-        inner_->end_all(status);
-        std::abort();
-    }
-    int rank() const override { return inner_->rank(); }
-    int ranks() const override { return inner_->ranks(); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) override { return count(), inner_->swap(to); }
-    void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override { count(), inner_->start(to, from); }
-    void finish() override { count(), inner_->finish(); }
-    void unite(std::span<std::uint32_t> bits) override { count(), inner_->unite(bits); }
-    void add(std::span<std::uint32_t> numbers) override { count(), inner_->add(numbers); }
-    int said = 0, fails_at = 0;
-
-private:
-    void count() {
-        if (++said == fails_at) throw std::runtime_error("the machine is gone");
-    }
-    std::shared_ptr<Exchange> inner_;
-};
-
 }  // namespace
 
 TEST_CASE("a pile on several ranks moves as on one", "[ranks]") {
@@ -330,7 +306,6 @@ TEST_CASE("a rank has memory for its own contacts, also after the world is read"
     }
 }
 
-// A rank is lost at each thing that it says in a step, whatever the others wait for then.
 // The file of ranks is that of one rank but for what no step reads: their constraints have no more than statistics need.
 TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds the whole", "[ranks]") {
     demos::DemoScene built = demos::build(*demos::find_demo("mix"), {.bodies = 300});
@@ -396,65 +371,4 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
     }
     const bool all_alike = saved[1] == saved[0] && saved[2] == saved[0];
     CHECK(all_alike);
-}
-
-TEST_CASE("a rank that fails anywhere in a step ends the others, and what was saved goes on elsewhere", "[ranks]") {
-    const demos::DemoScene built = demos::build(*demos::find_demo("shatter"), {.bodies = 40});
-    World alone(built.scene, {}, make_reference_runner(1));
-    alone.step(36);
-    const std::vector<std::byte> saved = alone.save();
-    alone.step(4);
-    int said = 0;  // in the step that bodies break in
-    run_in_process(3, [&](const std::shared_ptr<Exchange>& exchange) {
-        const auto failing = std::make_shared<FailingExchange>(exchange);
-        World world(built.scene, {}, make_distributed_runner(failing));
-        world.restore(saved);
-        failing->said = 0;
-        world.step(4);
-        if (exchange->rank() == 1) said = failing->said;
-    });
-    REQUIRE(said > 100);
-    for (int at = 1; at <= said; at += 3) {
-        std::vector<int> ended(3);
-        REQUIRE_THROWS_WITH(run_in_process(3,
-                                           [&](const std::shared_ptr<Exchange>& exchange) {
-                                               const auto rank = static_cast<std::size_t>(exchange->rank());
-                                               const auto failing = std::make_shared<FailingExchange>(exchange);
-                                               World world(built.scene, {}, make_distributed_runner(failing));
-                                               world.restore(saved);
-                                               failing->said = 0;
-                                               if (rank == 1) failing->fails_at = at;
-                                               try {
-                                                   world.step(4);
-                                               } catch (...) {
-                                                   ended[rank] = 1;
-                                                   throw;
-                                               }
-                                           }),
-                            "the machine is gone");
-        REQUIRE(ended == std::vector{1, 1, 1});
-    }
-    run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
-        World world(built.scene, {}, make_distributed_runner(exchange));
-        world.restore(saved);
-        world.step(4);
-        const std::uint64_t hash = world.state_hash();
-        if (exchange->rank() == 0) REQUIRE(hash == alone.state_hash());
-    });
-}
-
-TEST_CASE("a rank that fails ends the others", "[ranks]") {
-    REQUIRE_THROWS_WITH(run_in_process(3,
-                                       [](const std::shared_ptr<Exchange>& exchange) {
-                                           if (exchange->rank() == 1) throw std::runtime_error("no more");
-                                           std::uint32_t word[1] = {1};
-                                           for (;;) exchange->unite(word);
-                                       }),
-                        "no more");
-    REQUIRE_THROWS_AS(run_in_process(2,
-                                     [](const std::shared_ptr<Exchange>& exchange) {
-                                         World world(demos::build(*demos::find_demo("stack"), {}).scene, {},
-                                                     make_distributed_runner(exchange), 2);
-                                     }),
-                      std::invalid_argument);
 }

@@ -275,6 +275,18 @@ struct Performer {
     }
 };
 
+// Of what they tell.
+std::string hash_of_joints(const World& world) {
+    std::uint64_t hash = 0;
+    const auto add = [&](float value) { hash = hash * 1099511628211u + physics::floatBitsToUint(value); };
+    for (const JointState& joint : world.joints()) {
+        for (const vec3& v : {joint.force, joint.torque}) add(v.x), add(v.y), add(v.z);
+        for (const float value : {joint.max_force, joint.max_torque, joint.broken ? 1.0f : 0.0f, joint.gap}) add(value);
+        for (const float coordinate : joint.coordinates) add(coordinate);
+    }
+    return hash_text(hash);
+}
+
 // The first line in which they differ; both may be shorter.
 std::optional<std::size_t> first_difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
@@ -337,6 +349,7 @@ std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<
         world.step();
         lines.push_back(line + hash_text(world.state_hash()) + " contacts " + std::to_string(world.state().counted().contacts));
     }
+    lines.push_back("joints " + hash_of_joints(world));
     const Statistics last = world.statistics();
     std::uint64_t hash = 0;
     for (const std::byte byte : world.save()) hash = hash * 1099511628211u + std::to_integer<std::uint64_t>(byte);

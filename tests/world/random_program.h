@@ -56,7 +56,8 @@ struct RandomProgram {
 
 RandomProgram random_program(std::uint32_t seed);
 
-// One line for each step: the hash, numbers of contacts and bodies, and what acts threw; then a hash of the saved state.
+// One line for each step: the hash, numbers of contacts and bodies, and what acts threw; then hashes of what the joints tell and
+// of the saved state.
 std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<Runner> runner);
 
 // Of ranks: the same without the saved state, in which records that do not count are others.
