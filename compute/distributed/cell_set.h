@@ -1,6 +1,7 @@
 // The cells of a grid in which a rank has bodies, to be sent to another that asks which of its own are near.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -72,7 +73,8 @@ private:
         return false;
     }
     std::size_t slot_of(std::uint64_t key) const {
-        std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> 20 & (slots_.size() - 1);
+        // The upper bits of the product alone depend on all of the key.
+        std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> (std::countl_zero(slots_.size()) + 1);
         while (slots_[slot] != empty && slots_[slot] != key) slot = (slot + 1) & (slots_.size() - 1);
         return slot;
     }

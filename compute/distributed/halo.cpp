@@ -107,26 +107,27 @@ void Halo::find_near(const State& state, Exchange& exchange) {
     const auto may_touch = [&](std::size_t r) {
         return r != own && overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper);
     };
-    // To each neighbour coarse cells of all bodies; then of those in its coarse cells the fine ones.
-    CellSet whole(coarse * state.fixed().inverse_cell);
-    for (const Box& box : boxes) whole.add(box.lower, box.upper);
+    // To each neighbour coarse cells of the bodies within its bounds; then of those in its coarse cells the fine ones.
     std::vector<Bytes> told_cells(ranks);
-    for (std::size_t r = 0; r < ranks; ++r)
-        if (may_touch(r)) told_cells[r] = whole.bytes();
-    const std::vector<Bytes> regions = exchange.swap(told_cells);
     std::vector<std::vector<std::size_t>> near(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        if (!may_touch(r)) continue;
+        CellSet set(coarse * state.fixed().inverse_cell);
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            if (!overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper)) continue;
+            near[r].push_back(k);
+            set.add(boxes[k].lower, boxes[k].upper);
+        }
+        told_cells[r] = set.bytes();
+    }
+    const std::vector<Bytes> regions = exchange.swap(told_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
         told_cells[r].clear();
         if (!may_touch(r)) continue;
         const CellSet region(coarse * state.fixed().inverse_cell, regions[r]);
+        std::erase_if(near[r], [&](std::size_t k) { return !region.meets(boxes[k].lower, boxes[k].upper); });
         CellSet set(state.fixed().inverse_cell);
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            if (!overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) ||
-                !region.meets(boxes[k].lower, boxes[k].upper))
-                continue;
-            near[r].push_back(k);
-            set.add(boxes[k].lower, boxes[k].upper);
-        }
+        for (const std::size_t k : near[r]) set.add(boxes[k].lower, boxes[k].upper);
         told_cells[r] = set.bytes();
     }
     const std::vector<Bytes> sets = exchange.swap(told_cells);

@@ -88,6 +88,31 @@ TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulk
     CHECK(std::max(most[0] - fewest[0], most[1] - fewest[1]) > 0);
 }
 
+// Layers of balls that fly through the border between the ranks, one after the other: more become ghosts in one step than there
+// is room for, and later ones take the rows of those that have gone.
+TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan][ranks]") {
+    Scene scene;
+    scene.gravity = vec3(0);
+    for (int i = 0; i < 800; ++i) {
+        Body ball;
+        ball.shape = Sphere{0.3f};
+        const float layer = static_cast<float>(i / 80 % 5), side = i < 400 ? -1.0f : 1.0f;
+        ball.position = {side * (2 + 3 * layer), static_cast<float>(i % 8),
+                         2 * static_cast<float>(i / 8 % 10) + (side > 0 ? 1.0f : 0.0f)};
+        ball.velocity = {-8 * side, 0, 0};
+        scene.bodies.push_back(ball);
+    }
+    World alone(scene, {}, make_reference_runner(1));
+    const std::vector<std::uint64_t> expected = hashes_of(alone, 120);
+    std::vector<std::vector<std::uint64_t>> seen(2);
+    on_devices(2, [&](int rank, std::unique_ptr<Runner> runner) {
+        World world(scene, {}, std::move(runner));
+        seen[static_cast<std::size_t>(rank)] = hashes_of(world, 120);
+    });
+    CHECK(seen[0] == expected);
+    CHECK(seen[1] == expected);
+}
+
 TEST_CASE("shares on devices are whole for whoever looks, and saved in pieces", "[vulkan][ranks]") {
     const StreamedScene scene = streamed("pile", 200);
     const auto act = [](World& world) {
