@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "compute/scene/body_validation.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/step/scene_compiler.h"
 
@@ -136,23 +137,30 @@ Stored stored_in_springs(const World& world) {
 }  // namespace
 
 Adviser::Adviser(const World& world, bool commanded, bool sees_contacts)
-    : Adviser(world, commanded, sees_contacts, world.scene(), {}) {}
+    : Adviser(world, commanded, sees_contacts, world.scene(),
+              [&](const VisitBody& visit) { std::ranges::for_each(world.scene().bodies, visit); }) {}
+
 Adviser::Adviser(const World& world, const StreamedScene& scene, bool commanded, bool sees_contacts)
-    : Adviser(world, commanded, sees_contacts, scene.scene, scene.others) {}
+    : Adviser(world, commanded, sees_contacts, scene.scene, [&](const VisitBody& visit) {
+          BodyValidation validation;  // makes the forms of hulls
+          std::size_t index = 0;
+          scene.for_each_body([&](Body body) {
+              validation.check_passing(body, index++);
+              visit(body);
+          });
+      }) {}
 
 Adviser::Adviser(const World& world, bool commanded, bool sees_contacts, const Scene& scene,
-                 const std::function<void(const TakeBody&)>& others)
+                 const std::function<void(const VisitBody&)>& for_each_body)
     : sees_contacts_(sees_contacts),
       has_springs_(std::ranges::any_of(scene.joints, has_spring)),
       steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {
     std::vector<float> half_widths;
     bool is_driven = is_driven_by_more(scene);
-    const auto note = [&](const Body& body) {
+    for_each_body([&](const Body& body) {
         is_driven |= is_driving(body);
         if (body.motion == Motion::dynamic) half_widths.push_back(least_half_width(body.shape));
-    };
-    std::ranges::for_each(scene.bodies, note);
-    if (others) others(note);
+    });
     closed_ = !commanded && !is_driven;
     dynamic_ = half_widths.size();
     half_width_ = median_of(std::move(half_widths));

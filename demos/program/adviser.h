@@ -1,6 +1,7 @@
 // The adviser: says when a run shows that its settings do not suffice, and which option helps.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ private:
         double speed = 0;        // m/s, greatest
         std::size_t asleep = 0;
     };
+    using VisitBody = std::function<void(const Body&)>;
     Adviser(const World& world, bool commanded, bool sees_contacts, const Scene& scene,
-            const std::function<void(const TakeBody&)>& others);
+            const std::function<void(const VisitBody&)>& for_each_body);
     void look_at_burdens(const World& world);
     void look_at_energy(const World& world, const Statistics& statistics);
     Sample sample_of(const World& world, const Statistics& statistics) const;

@@ -37,7 +37,8 @@ bool cannot_run() {
 
 TEST_CASE("program: a world on several processes ends with the hash of one", "[program][ranks]") {
     if (cannot_run()) return;
-    for (const std::string scene : {"pile --bodies 200 --steps 90", "ragdolls --bodies 60 --steps 40"}) {
+    for (const std::string scene :
+         {"pile --bodies 200 --steps 90", "assortment --bodies 60 --steps 30", "ragdolls --bodies 60 --steps 40"}) {
         const std::string run = "run " + scene + " --threads 1 --quiet --report - ";
         const std::string alone = hash_after(run_scree(run + "--backend cpu").output);
         REQUIRE(alone.size() == 16);
