@@ -173,8 +173,8 @@ public:
     // make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner);  // takes the scene, in place of copying it
-    // Of a scene whose bodies come one after the other. Ranks that can share it out (compute/distributed/distributed.h) keep their
-    // shares of it from the start; any other world takes it whole.
+    // Of a scene whose bodies come one after the other. Ranks that can share it out (compute/distributed/distributed.h) keep
+    // their shares of it from the start; any other world takes it whole.
     World(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     // On the CPU, with `threads` worker threads (0: one per core).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);

@@ -39,8 +39,8 @@ void DeviceSide::attach(State& state) {
 
 void DeviceSide::attach_anew() {
     if (!device_) return;
-    device_.reset();
-    device_ = make_();
+    std::unique_ptr<StagedRunner> fresh = make_();  // or none: then the old one stays
+    device_ = std::move(fresh);
     attach(*state_);
 }
 

@@ -64,10 +64,9 @@ void DistributedRunner::attach_share(State& state, std::vector<int> owners, std:
     ownership_.begin(std::move(owners));
     state.allocate_all();
     ownership_.place(state, *exchange_);  // what every rank has
-    share_.take_in(state, own);
+    share_.begin(state, own);
     fill();
     ownership_.place(state, *exchange_);
-    (void)share_.changes();
     device_.attach(state);
     adapt();
 }

@@ -172,6 +172,13 @@ void Share::make(State& state) {
     drop_caches(state);
 }
 
+// Free rows even where there are no bodies: an empty table of presence says that all is here.
+void Share::begin(State& state, std::span<const std::uint32_t> ids) {
+    grow(state, static_cast<std::uint32_t>(ids.size()));
+    take_in(state, ids);
+    changes_ = {};
+}
+
 void Share::end(State& state, Exchange& exchange) {
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)

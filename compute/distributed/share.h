@@ -27,6 +27,9 @@ public:
     static bool can_be_made(const State& state);
     // Before a step: drops the rows of bodies that are elsewhere. Needs the presence of all rows.
     void make(State& state);
+    // Instead, of a state that has rows of what every rank has: makes rows for these bodies and free ones. Needs the presence of
+    // the rows that it has.
+    void begin(State& state, std::span<const std::uint32_t> ids);
     // Between steps: the tables have all rows again, those of bodies that are not owned as their owners say.
     void end(State& state, Exchange& exchange);
 

@@ -90,7 +90,18 @@ Shift BodyValidation::check(Body& body, std::size_t index) {
 }
 
 Shift BodyValidation::check_passing(Body& body, std::size_t index) {
-    return std::holds_alternative<Mesh>(body.shape) ? BodyValidation(notes_).check(body, index) : check(body, index);
+    const std::size_t known = shapes_.meshes.size();
+    const auto keep_mesh = [&] {
+        if (shapes_.meshes.size() > known) shapes_.meshes.back() = &meshes_.emplace_back(std::get<Mesh>(body.shape));
+    };
+    try {
+        const Shift shift = check(body, index);
+        keep_mesh();
+        return shift;
+    } catch (...) {
+        shapes_.meshes.resize(known);
+        throw;
+    }
 }
 
 Scene checked(Scene scene, std::vector<std::string>* notes) {

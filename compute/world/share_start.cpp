@@ -105,7 +105,7 @@ bool ShareStart::survey() {
     bodies_ = id;
     for (const auto& [still, body] : still_) SceneCompiler(state_).append_parts(body, still_rows_.at(still));
     lay_out_still();
-    for (std::uint32_t row = state_.fixed().first_part; row < state_.properties.size(); ++row) {
+    for (std::uint32_t row = state_.fixed().first_part; row < state_.fixed().bodies; ++row) {
         physics::BodyProperties part = state_.properties[row];
         part.owner = state_.properties[part.owner].owner;  // an id as yet
         note(part);

@@ -166,8 +166,8 @@ private:
                     "row", row, "has sizes, masses or a material that are not finite");
             require(body.restitution >= 0 && body.restitution <= 1, "row", row, "has a restitution that is not between 0 and 1");
             check_shape(row, body);
-            const bool large = physics::is_large(body) || body.shape == physics::SHAPE_NONE;
-            require(large || (body.shape != physics::SHAPE_PLANE && reach_of(row, body) * p_.inverse_cell < most_cells), "row",
+            const bool in_grid = !physics::is_large(body) && body.shape != physics::SHAPE_NONE && !physics::is_apart(body);
+            require(!in_grid || (body.shape != physics::SHAPE_PLANE && reach_of(row, body) * p_.inverse_cell < most_cells), "row",
                     row, "spans too many cells of the grid");
             const physics::Pose pose = saved_.poses[row];
             const physics::Velocity velocity = saved_.velocities[row];

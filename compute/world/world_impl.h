@@ -152,7 +152,8 @@ struct World::Impl {
     };
     // Begins shared out.
     Impl(ShareStart& start, const Settings& t, std::unique_ptr<Runner> r, Shared&& own, std::vector<int>&& owners);
-    static std::unique_ptr<Impl> of_streamed(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
+    static std::unique_ptr<Impl> of_streamed(const StreamedScene& scene, const Settings& settings,
+                                             std::unique_ptr<Runner> runner);
     std::optional<Shared> shared;  // while this rank has its share alone
     int steps_until_shared = 0;
     bool can_be_shared() const;

@@ -574,10 +574,11 @@ void add_run(CLI::App& program, int& status) {
         "--input", options->input,
         "Replay a recording of `scree view --record`: its scene, settings, steps and commands, to the same bits.");
     command
-        ->add_flag("--distributed", options->distributed,
-                   "One world on all processes that mpirun started, to the same bits; each moves a share of the bodies, on "
-                   "processors, or with --backend vulkan on a device each. Every process reads the whole scene; the first one "
-                   "writes.")
+        ->add_flag(
+            "--distributed", options->distributed,
+            "One world on all processes that mpirun started, to the same bits; each moves a share of the bodies, on "
+            "processors, or with --backend vulkan on a device each, and holds that share alone where the scene allows. The "
+            "first one writes.")
         ->group("Backend");
     command->get_option("scene")->required(false);
     command->add_flag("--quiet,-q", options->quiet, "Print no progress and no summary.");

@@ -333,7 +333,9 @@ LoadedScene load_streamed(const SceneOptions& options, int ranks) {
     if (!is_scene_file(options)) {
         const Demo& demo = demo_named(options);
         require_memory_for(options.bodies / static_cast<std::size_t>(ranks));
-        return subject_of(demo, build_streamed(demo, {options.bodies, options.seed}));
+        DemoScene built = build_streamed(demo, {options.bodies, options.seed});
+        require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
+        return subject_of(demo, std::move(built));
     }
     require_no_bodies_of_file(options);
     try {

@@ -116,6 +116,18 @@ TEST_CASE("a streamed scene file reads the mesh that several bodies name, and no
     CHECK(notes[0].find("/bodies/0/shape/hull: simplified") == 0);
 }
 
+TEST_CASE("an odd mesh that several bodies of a streamed scene file have is noted once, as in the whole one", "[json]") {
+    const tests::TemporaryFolder folder;
+    const std::string odd =
+        R"({"motion": "fixed", "shape": {"mesh": {"vertices": [[0,0,0],[1,0,0],[0,0,1],[1,1,1],[0,1,0]], "triangles": [[0,1,2],[1,0,3],[0,1,4]]}}})";
+    const auto path = folder.write("scene.json", R"({"bodies": [)" + odd + ", " + odd + ", " + odd + "]}");
+    std::vector<std::string> expected, notes;
+    (void)checked(load_scene(path).scene, &expected);
+    REQUIRE(stream_scene(path, {}, &notes));
+    CHECK(!expected.empty());
+    CHECK(notes == expected);
+}
+
 TEST_CASE("a streamed scene file that changes after it was read is refused", "[json]") {
     const tests::TemporaryFolder folder;
     const auto path = folder.write("scene.json", R"({"bodies": [)" + ball("") + "]}");

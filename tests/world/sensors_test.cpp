@@ -95,6 +95,24 @@ TEST_CASE("filters and exclusions hold for sensors") {
     CHECK(world.sensed() == std::vector{SensorOverlap{0, 0, 1, 0}, SensorOverlap{0, 0, 3, 0}});
 }
 
+TEST_CASE("a world with a plane that is a sensor is restored") {
+    Scene scene;
+    Body ground, plane, box;
+    ground.motion = plane.motion = Motion::fixed;
+    ground.shape = plane.shape = Plane{};
+    plane.role = Role::sensor;
+    box.shape = Box{vec3(0.5f)};
+    box.position = {0, 2, 0};
+    scene.bodies = {ground, plane, box};
+    World world(scene, {}, 1);
+    world.step(10);
+    const std::vector<std::byte> saved = world.save();
+    const std::uint64_t hash = world.state_hash();
+    world.step(10);
+    world.restore(saved);
+    CHECK(world.state_hash() == hash);
+}
+
 TEST_CASE("many sensors find what few would, and a restored world goes on with their events") {
     Scene scene;
     scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});

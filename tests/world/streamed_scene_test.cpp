@@ -113,6 +113,20 @@ TEST_CASE("a streamed scene may have fixed and kinematic bodies, compounds, mesh
     begins_alike(streamed(scene, scene.bodies.size()), 60, {2});
 }
 
+TEST_CASE("a streamed scene may have dynamic bodies alone, and fewer than ranks", "[ranks]") {
+    Scene scene;
+    for (int i = 0; i < 6; ++i) {
+        Body box;
+        box.shape = Box{vec3(0.3f)};
+        box.position = {0.5f * static_cast<float>(i % 3), 0.55f * static_cast<float>(i), 0};
+        scene.bodies.push_back(box);
+    }
+    begins_alike(streamed(scene, 0), 30, {2, 3, 8});
+    begins_alike(streamed(scene, 3), 30, {2});
+    scene.bodies.resize(1);
+    begins_alike(streamed(scene, 0), 10, {3});
+}
+
 TEST_CASE("more ranks than bodies begin with shares, too", "[ranks]") {
     begins_alike(streamed("mix", 3), 20, {5});
     begins_alike(streamed(Scene{}, 0), 2, {2}, false);  // nothing to share
