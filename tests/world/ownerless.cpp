@@ -58,6 +58,14 @@ std::string records_in(const std::vector<std::byte>& saved, const Scene& scene) 
     return bytes;
 }
 
+// Of chains(): the pairs on springs 0 and 5. Tells how many bodies that are.
+std::string with_ends_in_quarantine(World& world) {
+    world.step(5);
+    for (const std::size_t joint : {0, 5}) world.set_spring(joint, JointAxis::x, endless);
+    world.step(4);
+    return fmt::format("{} in quarantine", world.quarantines().size());
+}
+
 }  // namespace
 
 Ownerless joints_in_quarantine() {
@@ -114,11 +122,7 @@ Ownerless joints_of_broken_bodies() {
 Ownerless joint_in_quarantine_that_migrates() {
     const Scene scene = chains(6);
     return {scene, [scene](World& world) {
-                Lines lines;
-                world.step(5);
-                for (const std::size_t joint : {0, 5}) world.set_spring(joint, JointAxis::x, endless);
-                world.step(4);
-                lines.push_back(fmt::format("{} in quarantine", world.quarantines().size()));
+                Lines lines{with_ends_in_quarantine(world)};
                 world.set_bodies(std::vector{BodyChange{.body = 0, .position = vec3(190, 9, 0)},
                                              BodyChange{.body = 5, .position = vec3(10, 9, 0)}});
                 world.step(60);
@@ -132,11 +136,7 @@ Ownerless joint_in_quarantine_that_migrates() {
 Ownerless joint_in_quarantine_cut_off() {
     const Scene scene = chains(6);
     return {scene, [scene](World& world) {
-                Lines lines;
-                world.step(5);
-                for (const std::size_t joint : {0, 5}) world.set_spring(joint, JointAxis::x, endless);
-                world.step(4);
-                lines.push_back(fmt::format("{} in quarantine", world.quarantines().size()));
+                Lines lines{with_ends_in_quarantine(world)};
                 world.remove_joint(11);
                 world.remove_joint(6);
                 world.step(3);
