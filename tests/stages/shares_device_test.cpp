@@ -92,7 +92,12 @@ TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulk
 // is room for, and later ones take the rows of those that have gone.
 TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan][ranks]") {
     Scene scene;
-    scene.gravity = vec3(0);
+    scene.gravity = vec3(0, -4, 0);
+    Body floor;  // its parts lie behind the rows of bodies, and move when these grow
+    floor.motion = Motion::fixed;
+    floor.shape = Compound{{{Box{{20, 0.5f, 15}}, {-20, 0, 0}}, {Box{{20, 0.5f, 15}}, {20, 0, 0}}}};
+    floor.position = {0, -0.8f, 10};
+    scene.bodies.push_back(floor);
     for (int i = 0; i < 800; ++i) {
         Body ball;
         ball.shape = Sphere{0.3f};
