@@ -75,6 +75,11 @@ std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravit
     return records;
 }
 
+void set_first_capacities(physics::Parameters& p, const Settings& settings, std::uint32_t bodies, std::uint32_t ranks) {
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * bodies / ranks;
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + bodies / 2 / ranks;
+}
+
 physics::uint sleep_steps_of(const Settings& settings) {
     return settings.sleeping ? std::max(1u, static_cast<physics::uint>(std::ceil(settings.sleep_time * settings.rate)))
                              : physics::NO_SLEEP;
@@ -104,8 +109,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.bodies = rows;
     p.first_part = state_.body_count = n;
     p.buckets = State::buckets_for(rows);
-    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving) / ranks;
-    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2 / ranks;
+    set_first_capacities(p, settings, n + moving, ranks);
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     p.most_groups = 65535;  // of any device; a runner may have more

@@ -18,6 +18,10 @@ physics::uint sleep_steps_of(const Settings& settings);
 // The parameters with new gravity and settings; the others unchanged.
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
 
+// Capacities of the lists of pairs and contacts on each of `ranks`: the settings', or a first guess for so many bodies and moving
+// parts in all.
+void set_first_capacities(physics::Parameters& p, const Settings& settings, std::uint32_t bodies, std::uint32_t ranks);
+
 // The table of gravities, of copies of a scene.
 std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravities);
 

@@ -121,8 +121,7 @@ void ShareStart::lay_out_still() {
     p.bodies = rows;
     p.first_part = still;
     p.buckets = State::buckets_for(rows);
-    if (settings_.pairs_at_first == 0) p.pair_capacity = 64 + static_cast<std::uint32_t>(2 * bodies_ / ranks_);
-    if (settings_.contacts_at_first == 0) p.contact_capacity = 64 + static_cast<std::uint32_t>(bodies_ / 2 / ranks_);
+    set_first_capacities(p, settings_, static_cast<std::uint32_t>(bodies_), ranks_);
     state_.allocate();
     for (const auto& [id, body] : still_) {
         const std::uint32_t row = still_rows_.at(id);
