@@ -14,6 +14,7 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 
 namespace scree::reference {
@@ -93,11 +94,22 @@ physics::uint age_of(const State& state, std::size_t body) {
 
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
-    state.velocities[i] =
-        physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
+    const physics::BodyProperties& properties = state.properties[i];
+    const physics::BodyForces load =
+        physics::scaled_forces(state.forces[i], physics::mass_scale(state.masses[i], properties));
+    state.velocities[i] = physics::integrate_velocity(state.velocities[i], sum.change, load, properties, state.fixed());
     float& split_state = state.masses[i].split_state;
     if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
     split_state = physics::split_state_after(split_state, sum.weight, sum.normal_impulse);
+}
+
+void scale_mass(State& state, std::size_t i) {
+    physics::BodyMass& mass = state.masses[i];
+    const physics::BodyProperties& properties = state.properties[i];
+    const float scale =
+        physics::next_mass_scale(mass, properties, state.velocities[i], felt_by(state, static_cast<std::uint32_t>(i)));
+    if (scale != physics::mass_scale(mass, properties))
+        mass = physics::mass_with_scale(mass, properties, state.poses[i].orientation, scale);
 }
 
 void move(State& state, std::size_t i) {
@@ -119,8 +131,7 @@ void move(State& state, std::size_t i) {
     state.poses[i] = after.pose;
     state.velocities[i] = after.velocity;
     if (!physics::has_isotropic_inertia(properties))
-        state.masses[i] =
-            physics::body_mass(physics::mass_in_world(properties, after.pose.orientation), state.masses[i].split_state);
+        state.masses[i] = physics::mass_with_scale_of(state.masses[i], properties, after.pose.orientation);
 }
 
 void put_into_quarantine(State& state, std::size_t i, float mark) {
@@ -210,9 +221,8 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
                                      ? physics::no_bounds(pose)
                                      : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
-        state.masses[i] =
-            owner == i ? physics::body_mass(physics::mass_in_world(properties, pose.orientation), state.masses[i].split_state)
-                       : physics::BodyMass{};
+        state.masses[i] = owner == i ? physics::mass_with_scale_of(state.masses[i], properties, pose.orientation)
+                                     : physics::BodyMass{};
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);
@@ -257,6 +267,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
         velocity =
             physics::pulled(velocity, state.poses[grip.body], physics::whole_mass(state.masses[grip.body]), grip, state.fixed());
     }
+    if (first != 0) threads.for_each(bodies.size(), [&](std::size_t k) { scale_mass(state, bodies[k]); });
 }
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {

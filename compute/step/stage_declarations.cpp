@@ -189,8 +189,9 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
-        {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS});
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers}, {births}, {gravities}, {ids}},
+        {{velocities, A::movers}, {masses, A::movers, 1}},
+        physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS | physics::FEATURE_GRAVITIES});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
@@ -233,7 +234,7 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
     all.push_back({"compute_bounds", DispatchDomain::bodies, compute_bounds,
-        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies, 1}, {sleep_states, A::bodies}, {cell_ends, A::bodies}, {ids},
+        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies}, {sleep_states, A::bodies}, {cell_ends, A::bodies}, {ids},
          {copy_states}},
         {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS});

@@ -5,6 +5,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
 
@@ -35,7 +36,7 @@ void main() {
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        masses.at[i] = body_mass(mass_in_world(body, pose.orientation), masses.at[i].split_state);
+        masses.at[i] = mass_with_scale_of(masses.at[i], body, pose.orientation);
     } else {
         masses.at[i] = BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }

@@ -13,6 +13,7 @@
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/solve/scaled_mass.h"
 #undef float
 #undef bool
 
@@ -303,8 +304,9 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         Velocity change, velocity = gather<Velocity>(tables.velocities, bodies);
         change.linear = sum.linear;
         change.angular = sum.angular;
-        velocity = integrate_velocity(velocity, change, load, properties, p);
         BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+        const BodyForces scaled = scaled_forces(load, mass_scale(mass, properties));
+        velocity = integrate_velocity(velocity, change, scaled, properties, p);
         Float& state = mass.split_state;
         if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
         state = split_state_after(state, sum.weight, sum.normal_impulse);
@@ -342,7 +344,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         if (none(!has_isotropic_inertia(properties))) continue;
         const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
         scatter(tables.masses, bodies.only(living(first, last) && !has_isotropic_inertia(properties)),
-                body_mass(mass_in_world(properties, after.pose.orientation), mass.split_state));
+                mass_with_scale_of(mass, properties, after.pose.orientation));
     }
 }
 

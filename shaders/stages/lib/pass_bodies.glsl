@@ -7,6 +7,7 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
 
@@ -19,17 +20,22 @@ void begin_body(uint i, bool first) {
     BodyProperties body = READ(properties, i);
     if (body.motion != MOTION_DYNAMIC || is_foreign(body)) return;
     Gathered sum = gather(i);
-    Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
+    BodyMass mass = READ(masses, i);
+    float scale = mass_scale(mass, body);
+    Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, scaled_forces(READ(forces, i), scale), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
-            velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
+            velocity = pulled(velocity, READ(poses, i), whole_mass(mass), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    float split_state = READ(masses, i).split_state;
     uint age = COUNTED.steps;
     if (COPIES && first) age = age_of_copy(age, READ_WORD(births, copy_of(i)));
-    if (first) split_state = update_hysteresis(split_state, sum.weight, age);
-    masses.at[i].split_state = split_state_after(split_state, sum.weight, sum.normal_impulse);
+    if (first) mass.split_state = update_hysteresis(mass.split_state, sum.weight, age);
+    mass.split_state = split_state_after(mass.split_state, sum.weight, sum.normal_impulse);
+    masses.at[i].split_state = mass.split_state;
+    if (!first) return;
+    float next = next_mass_scale(mass, body, velocity, felt_by(i));
+    if (next != scale) masses.at[i] = mass_with_scale(mass, body, READ(poses, i).orientation, next);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
@@ -56,7 +62,7 @@ void move_body(uint i) {
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
     if (!has_isotropic_inertia(body))
-        masses.at[i] = body_mass(mass_in_world(body, after.pose.orientation), READ(masses, i).split_state);
+        masses.at[i] = mass_with_scale_of(READ(masses, i), body, after.pose.orientation);
 }
 
 #endif
