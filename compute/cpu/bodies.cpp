@@ -95,8 +95,7 @@ physics::uint age_of(const State& state, std::size_t body) {
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
     const physics::BodyProperties& properties = state.properties[i];
-    const physics::BodyForces load =
-        physics::scaled_forces(state.forces[i], physics::mass_scale(state.masses[i], properties));
+    const physics::BodyForces load = physics::scaled_forces(state.forces[i], physics::mass_scale(state.masses[i], properties));
     state.velocities[i] = physics::integrate_velocity(state.velocities[i], sum.change, load, properties, state.fixed());
     float& split_state = state.masses[i].split_state;
     if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
@@ -221,8 +220,8 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
                                      ? physics::no_bounds(pose)
                                      : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
-        state.masses[i] = owner == i ? physics::mass_with_scale_of(state.masses[i], properties, pose.orientation)
-                                     : physics::BodyMass{};
+        state.masses[i] =
+            owner == i ? physics::mass_with_scale_of(state.masses[i], properties, pose.orientation) : physics::BodyMass{};
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);

@@ -8,8 +8,8 @@
 #include "compute/distributed/packing.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/physics/solve/motion.h"
+#include "shaders/physics/solve/scaled_mass.h"
 
 namespace scree {
 

@@ -11,6 +11,7 @@
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/step/state.h"
+#include "shaders/physics/collide/body_scale.h"
 
 namespace scree::demos {
 
@@ -19,16 +20,17 @@ namespace {
 constexpr double least_ratio = 100;  // what bears less, as small bodies in a heap do, is judged by its penetration
 constexpr double upright = 0.5;      // cosine between a contact's normal and the vertical from which on it bears
 
-// Two laws, from columns of 2 to 20 boxes of 0.1 to 10 m that bear up to 10,000 times the weight of one, over 20 s:
-// - A contact under `ratio` weights of the lighter body gives way by 1.86 ratio g h^2 (contact_momentum.h, substep h). Beyond
-//   4% of the thickness columns of ten buckle (boxes of 0.1 m stand with 20, 36, 64 substeps at 60 Hz under 300, 1,000, 3,000),
-//   those of twenty beyond 3%.
-// - Whatever its size, a column of up to ten needs 0.84 ratio substeps a second: 14 and 36 under 1,000 and 3,000; of twenty 1.2.
+// Two laws for the first second under a load, until masses are scaled (mass_scaling.h), from columns of 2 to 10 boxes of 0.1 to 3
+// m that bear 300 to 10,000 times the weight of one, over 20 s:
+// - A contact under `ratio` weights of the lighter body gives way by 1.86 ratio g h^2 (contact_momentum.h, substep h). Beyond a
+//   tenth of the width columns of ten buckle: boxes of 0.1 m stand with 16, 32, 48 substeps at 60 Hz under 300, 1,000, 3,000.
+//   Plates of a tenth of their width need less.
+// - Whatever its size, a column needs 0.48 ratio substeps a second: boxes of 1 m stand with 8 and 24 under 1,000 and 3,000.
 constexpr double compliance = 1.86, spare = 1.1;
-constexpr double crushed = 0.06, falling = 0.7;  // of the thickness, and substeps a second of the ratio, where columns fall
+constexpr double crushed = 0.09, falling = 0.45;  // of the width, and substeps a second of the ratio, where columns fall
 
-double substeps_for(double ratio, double thickness, double gravity, double give) {
-    return std::sqrt(compliance * ratio * gravity / (give * thickness));
+double substeps_for(double ratio, double width, double gravity, double give) {
+    return std::sqrt(compliance * ratio * gravity / (give * width));
 }
 
 // Who rests on whom: `below` bears `above`.
@@ -58,8 +60,8 @@ std::vector<Resting> resting_pairs(const World& world, std::size_t count, const 
 
 }  // namespace
 
-double needed_substeps(double ratio, double thickness, double gravity) {
-    return spare * (falling * ratio + substeps_for(ratio, thickness, gravity, 0.5 * crushed));
+double needed_substeps(double ratio, double width, double gravity) {
+    return spare * std::max(spare * falling * ratio, substeps_for(ratio, width, gravity, 0.6 * crushed));
 }
 
 std::vector<Burden> overburdened(const World& world) {
@@ -98,9 +100,11 @@ std::vector<Burden> overburdened(const World& world) {
     for (std::size_t i = 0; i < count; ++i) {
         if (own[i] <= 0 || on[i] < least_ratio * own[i]) continue;
         const physics::BodyProperties& body = state.properties[state.row_of(i)];
-        const double thickness = 2 * static_cast<double>(physics::min_half_width(body.shape, body.size)), ratio = on[i] / own[i];
-        if (std::max(falling * ratio, substeps_for(ratio, thickness, gravity, crushed)) < present) continue;
-        all.push_back({i, heaviest[i], ratio, needed_substeps(ratio, thickness, gravity)});
+        const double width =
+            2 * static_cast<double>(physics::patch_width(body, state.poses[state.row_of(i)].orientation, vec3(up)));
+        const double ratio = on[i] / own[i];
+        if (std::max(falling * ratio, substeps_for(ratio, width, gravity, crushed)) < present) continue;
+        all.push_back({i, heaviest[i], ratio, needed_substeps(ratio, width, gravity)});
     }
     return all;
 }

@@ -69,10 +69,8 @@ DemoScene jenga(const DemoOptions& options) {
         }
     }
     const vec3 low(-0.8f, 0, -0.8f), high(0.8f, 2.75f, 0.8f);
-    // The drift limit includes the compression of the whole tower: a third of a layer.
-    return awake(
-        {std::move(scene), view_of(low, high, 30, 14), low, high, 20,
-         Promise(drift_below(0.025), end_speed_below(0.0003), end_spin_below(), sway_below(), penetration_below(0.0026))});
+    return awake({std::move(scene), view_of(low, high, 30, 14), low, high, 20,
+                  Promise(drift_below(0.01), end_speed_below(), end_spin_below(), sway_below(), penetration_below(0.0008))});
 }
 
 // A plate on a table smaller than itself, under a layer of boxes of 2.5 times its mass. On a plate of a tenth of

@@ -72,11 +72,11 @@ Claim speed_when_settled(double when) {
                    at_rest);
 }
 Claim mean_penetration_when_settled(double when) {
-    return at_most("mean penetration when settled", 0.0013, "m", fmt::format("over the points that penetrate, after {} s", when),
+    return at_most("mean penetration when settled", 0.0007, "m", fmt::format("over the points that penetrate, after {} s", when),
                    [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
 }
 Claim penetration_when_settled(double when) {
-    return at_most("deepest penetration when settled", 0.02, "m", fmt::format("over all contact points, after {} s", when),
+    return at_most("deepest penetration when settled", 0.0055, "m", fmt::format("over all contact points, after {} s", when),
                    [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_max; });
 }
 
@@ -197,8 +197,7 @@ DemoScene hulls1m(const DemoOptions& options) {
         at_most("mean penetration when settled", 0.0006, "m", fmt::format("over the points that penetrate, after {} s", when),
                 [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
     return awake({pile_in(pit, options, metre_stone), view_of(low, high, 35, 38), low, high, static_cast<float>(when),
-                  Promise(mean, because(penetration_when_settled(when), "the limit of boxes, which reach 12 mm"))
-                      .sampling({every_step, when})});
+                  Promise(mean, because(penetration_when_settled(when), "the limit of boxes")).sampling({every_step, when})});
 }
 
 // Clumps of 3 x 3 x 3 bodies that overlap by half along every axis: the depenetration speed must be limited.
@@ -230,7 +229,7 @@ DemoScene overlap(const DemoOptions& options) {
     const float reach = 0.5f * between_clumps * static_cast<float>(side) + 1;
     const vec3 low(-reach, 0, -reach), high(reach, 4, reach);
     return awake({std::move(scene), view_of(low, high, 35, 38), low, high, 4,
-                  Promise(none_flies, penetration_below(0.014)).sampling(every_step)});
+                  Promise(none_flies, penetration_below(0.0075)).sampling(every_step)});
 }
 
 }  // namespace scree::demos

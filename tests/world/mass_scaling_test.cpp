@@ -1,0 +1,172 @@
+// Mass scaling (shaders/physics/solve/mass_scaling.h): what light bodies bear, and that weights, free motion and bits stay.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "compute/cpu/reference_runner.h"
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+#include "tests/world/laden.h"
+#include "tests/world/on_ranks.h"
+
+using namespace scree;
+
+namespace {
+
+Settings awake() {
+    Settings settings;
+    settings.sleeping = false;
+    return settings;
+}
+
+float greatest_speed(const World& world) {
+    float greatest = 0;
+    for (const BodyState& body : world.bodies()) greatest = std::max(greatest, glm::length(body.velocity));
+    return greatest;
+}
+
+// m, sideways.
+float greatest_drift(const World& world) {
+    float greatest = 0;
+    const std::vector<BodyState> bodies = world.bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const vec3 way = bodies[i].position - world.scene().bodies[i].position;
+        greatest = std::max(greatest, std::hypot(way.x, way.z));
+    }
+    return greatest;
+}
+float sinking_of_last(const World& world) {
+    return world.scene().bodies.back().position.y - world.bodies().back().position.y;
+}
+
+}  // namespace
+
+TEST_CASE("boxes stand under a hundred to a thousand times their mass", "[mass-scaling]") {
+    for (const int count : {2, 5, 10})
+        for (const float ratio : {100.0f, 300.0f, 700.0f, 1000.0f}) {
+            int standing = 0;
+            for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+                World world(tests::laden_column(count, 1, 1, ratio, seed), awake(), 1);
+                world.step(1200);
+                standing += greatest_drift(world) < 0.03f && sinking_of_last(world) < 0.0006f * static_cast<float>(count) &&
+                            greatest_speed(world) < 0.002f;
+            }
+            INFO(count << " boxes, ratio " << ratio);
+            CHECK(standing >= (count == 10 && ratio > 700 ? 7 : 8));
+        }
+}
+
+TEST_CASE("plates bear five hundred times their weight with less than a tenth of their thickness lost", "[mass-scaling]") {
+    for (const float size : {0.5f, 1.0f, 3.0f})
+        for (const float ratio : {50.0f, 500.0f}) {
+            INFO("size " << size << ", ratio " << ratio);
+            World world(tests::laden_column(2, size, 0.01f, ratio), awake(), 1);
+            world.step(1200);
+            CHECK(sinking_of_last(world) < (size < 1 ? 0.2f : 0.1f) * 0.01f * size);
+            CHECK(greatest_drift(world) < 0.001f);
+        }
+}
+
+TEST_CASE("slivers under a stack of boxes penetrate by less than a hundredth of their length", "[mass-scaling]") {
+    const tests::Slivers slivers = tests::slivers_under_boxes(60, 48, 3);
+    World world(slivers.scene, awake(), 2);
+    world.step(2400);
+    std::vector<double> depths(slivers.lengths.size());
+    for (const ContactState& contact : world.contacts())
+        for (const std::size_t body : {contact.a, contact.b}) {
+            if (body < slivers.first || body - slivers.first >= depths.size()) continue;
+            const std::size_t sliver = body - slivers.first;
+            for (std::uint32_t k = 0; k < contact.count; ++k)
+                depths[sliver] =
+                    std::max(depths[sliver], static_cast<double>(-contact.points[k].separation / slivers.lengths[sliver]));
+        }
+    const double mean = std::accumulate(depths.begin(), depths.end(), 0.0) / static_cast<double>(depths.size());
+    INFO("mean of the deepest " << mean);
+    CHECK(mean < 0.01);
+}
+
+TEST_CASE("scaled bodies press with their own weight", "[mass-scaling]") {
+    const Scene scene = tests::laden_column(4, 1, 1, 200);
+    World world(scene, awake(), 1);
+    world.step(900);
+    double weight = 0, force = 0;
+    for (const Body& body : scene.bodies)
+        if (body.motion == Motion::dynamic) weight += 9.81 * mass_properties(body).mass;
+    for (const ContactState& contact : world.contacts())
+        if (contact.a == 0)
+            for (std::uint32_t k = 0; k < contact.count; ++k) force += static_cast<double>(contact.points[k].force);
+    CHECK(force == Approx(weight).epsilon(1e-4));
+}
+
+// Pulled over ice with a force for 1 m/s^2.
+TEST_CASE("what moves under a load accelerates as its mass and the load's", "[mass-scaling]") {
+    for (const float ratio : {1.0f, 3.0f, 5.0f, 10.0f, 30.0f, 100.0f}) {
+        Scene scene = tests::laden_column(2, 1, 1, ratio);
+        scene.bodies[0].friction = 0;
+        scene.bodies[1].friction = scene.bodies[2].friction = 0.9f;
+        World world(scene, awake(), 1);
+        world.step(180);
+        const float force = static_cast<float>(mass_properties(scene.bodies[1]).mass) * (1 + ratio);
+        for (int step = 0; step < 120; ++step) {
+            world.apply_force(1, {force, 0, 0});
+            world.step();
+        }
+        const float lag = 2 - world.bodies()[1].velocity.x;
+        INFO("ratio " << ratio << ", lag " << lag << " m/s");
+        // A third of the load lags until 0.09 m/s and while scales shrink.
+        CHECK(std::abs(lag) < (ratio < 9 ? 0.001f : 0.08f));
+    }
+}
+
+TEST_CASE("a body whose load is taken away has its own mass", "[mass-scaling]") {
+    Scene scene = tests::laden_column(2, 1, 1, 500);
+    scene.bodies[0].friction = 0;
+    World world(scene, awake(), 1);
+    world.step(600);
+    const BodyChange away{.body = 2, .position = vec3(0, 50, 0)};
+    world.set_bodies({&away, 1});
+    world.step(60);
+    const float mass = static_cast<float>(mass_properties(scene.bodies[1]).mass);
+    const float before = world.bodies()[1].velocity.x;
+    for (int step = 0; step < 30; ++step) {
+        world.apply_force(1, {2 * mass, 0, 0});
+        world.step();
+    }
+    CHECK(world.bodies()[1].velocity.x - before == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("scaled masses have the same bits in lanes, with small tables, restored, and on ranks", "[mass-scaling][ranks]") {
+    const Scene scene = tests::slivers_under_boxes(20, 12, 1).scene;
+    World world(scene, awake(), make_reference_runner(1));
+    std::vector<std::byte> mark;
+    for (int step = 0; step < 300; ++step) {
+        if (step == 200) mark = world.save();
+        world.step();
+    }
+    const std::uint64_t hash = world.state_hash();
+    World twice(scene, awake(), make_reference_runner(2));
+    twice.step(300);
+    CHECK(twice.state_hash() == hash);
+    Settings small = awake();
+    small.pairs_at_first = 8;
+    small.contacts_at_first = 4;
+    for (const int lanes : {1, 4, 8}) {
+        World narrow(scene, small, std::make_unique<ReferenceRunner>(1, lanes));
+        narrow.step(300);
+        INFO(lanes << " lanes");
+        CHECK(narrow.state_hash() == hash);
+    }
+    World restored(scene, awake(), make_reference_runner(1));
+    restored.restore(mark);
+    restored.step(100);
+    CHECK(restored.state_hash() == hash);
+    run_in_process(3, [&](const std::shared_ptr<Exchange>& exchange) {
+        World rank(scene, awake(), make_distributed_runner(exchange));
+        rank.step(300);
+        const std::uint64_t there = rank.state_hash();
+        if (exchange->rank() == 0) CHECK(there == hash);
+    });
+}
