@@ -172,11 +172,14 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
         if (physics::is_out_of_play(state.properties[body].motion) || !state.is_stepped(body)) continue;
-        const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation);
-        if (!state.fixed().redo)
-            state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
-        const bool sets =
-            (action.flags & physics::ACTION_SETS_VELOCITY) != 0 && state.properties[body].motion == physics::MOTION_DYNAMIC;
+        const physics::BodyProperties& properties = state.properties[body];
+        const physics::Mass mass = physics::mass_in_world(properties, state.poses[body].orientation);
+        const bool sets = (action.flags & physics::ACTION_SETS_VELOCITY) != 0 && properties.motion == physics::MOTION_DYNAMIC;
+        if (!state.fixed().redo) {
+            const physics::Mass struck =
+                physics::scaled_mass(mass, sets ? 1.0f : physics::mass_scale(state.masses[body], properties));
+            state.velocities[body] = physics::apply_impulses(state.velocities[body], action, struck, state.fixed());
+        }
         physics::uint& rest = state.sleep_states[body];
         rest = sets ? physics::RESTARTS : physics::roused(rest, state.fixed().sleep_steps);
         state.forces[body] = physics::apply_forces(state.forces[body], action, mass);
@@ -220,8 +223,9 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
                                      ? physics::no_bounds(pose)
                                      : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
+        const float scale = physics::was_set(state.sleep_states[i]) ? 1 : physics::mass_scale(state.masses[i], properties);
         state.masses[i] =
-            owner == i ? physics::mass_with_scale_of(state.masses[i], properties, pose.orientation) : physics::BodyMass{};
+            owner == i ? physics::mass_with_scale(state.masses[i], properties, pose.orientation, scale) : physics::BodyMass{};
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);

@@ -222,7 +222,7 @@ std::vector<StageDeclaration> declare() {
         {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
-        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}},
+        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}, {masses, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
     all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
         {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}, {gravities}},

@@ -15,8 +15,8 @@ struct Burden {
     double substeps_a_second = 0;        // with which it stands
 };
 
-// The substeps a second with which a body of this width (m, the smaller one across gravity) bears `ratio` times its weight in this
-// gravity (m/s^2).
+// The substeps a second with which a body of this width (m, the smaller one across gravity) bears `ratio` times its weight in
+// this gravity (m/s^2).
 double needed_substeps(double ratio, double width, double gravity);
 
 // The bodies that do not bear what lies on them with the world's substeps and rate, by index; of many copies, in the first.

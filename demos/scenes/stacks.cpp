@@ -114,7 +114,7 @@ DemoScene tower(const DemoOptions& options) {
 // Taller than the solver can hold awake indefinitely: the column stands because it falls asleep.
 DemoScene stack80(const DemoOptions& options) {
     constexpr std::size_t count = 80;
-    const Claim top_stays = at_most("sideways drift of the topmost", 0.008, "m", "from its start to the end",
+    const Claim top_stays = at_most("sideways drift of the topmost", 0.0045, "m", "from its start to the end",
                                     [](const Trace& trace) { return sideways_of(trace, count); });
     const Claim none_fell = at_most("boxes that fell", 0, "", "no longer above the one below", [](const Trace& trace) {
         double fallen = 0;
@@ -180,7 +180,7 @@ DemoScene pyramid(const DemoOptions& options) {
 }
 
 DemoScene pyramid100(const DemoOptions& options) {
-    return pyramid_of(100, options.seed, Promise(drift_below(0.14), end_speed_below(0.0014), sway_below(0.0006)));
+    return pyramid_of(100, options.seed, Promise(drift_below(0.12), end_speed_below(0.0009), sway_below(0.0005)));
 }
 
 }  // namespace scree::demos

@@ -95,7 +95,7 @@ std::vector<Experiment> static_experiments() {
          "sag, m",
          0.1,
          0.0001,
-         {2, 4, 6, 9},
+         {2, 3, 4, 6},
          [](double n) { return compliance * earth_gravity * n * n; },
          [](const Lab& lab, double n) { return sag(lab, static_cast<int>(n)); }},
         {"sag-gravity",

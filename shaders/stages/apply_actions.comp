@@ -5,6 +5,7 @@
 
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
@@ -12,9 +13,13 @@ void main() {
     if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
     Action action = actions.at[i];
     if (is_out_of_play(READ(properties, action.body).motion)) return;
-    Mass mass = mass_in_world(READ(properties, action.body), READ(poses, action.body).orientation);
-    if (PARAMETERS.redo == 0u) velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
-    bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u && READ(properties, action.body).motion == MOTION_DYNAMIC;
+    BodyProperties body = READ(properties, action.body);
+    Mass mass = mass_in_world(body, READ(poses, action.body).orientation);
+    bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u && body.motion == MOTION_DYNAMIC;
+    if (PARAMETERS.redo == 0u) {
+        Mass struck = scaled_mass(mass, sets ? 1.0f : mass_scale(READ(masses, action.body), body));
+        velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, struck, PARAMETERS);
+    }
     WORD(sleep_states, action.body) = sets ? RESTARTS : roused(WORD(sleep_states, action.body), PARAMETERS.sleep_steps);
     forces.at[action.body] = apply_forces(forces.at[action.body], action, mass);
 }

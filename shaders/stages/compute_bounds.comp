@@ -36,7 +36,8 @@ void main() {
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        masses.at[i] = mass_with_scale_of(masses.at[i], body, pose.orientation);
+        float scale = was_set(READ_WORD(sleep_states, i)) ? 1.0f : mass_scale(masses.at[i], body);
+        masses.at[i] = mass_with_scale(masses.at[i], body, pose.orientation, scale);
     } else {
         masses.at[i] = BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }

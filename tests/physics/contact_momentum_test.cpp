@@ -130,8 +130,8 @@ TEST_CASE("a column sags by its contacts' compliance, in proportion to gravity a
         float rate;
         int substeps;
     };
-    for (const Case& c : {Case{9, 0.5, 9.81, 60, 8}, Case{9, 0.5, 9.81, 120, 8}, Case{9, 0.5, 9.81, 60, 16},
-                          Case{6, 0.05, 9.81, 60, 8}, Case{8, 0.3, 1.62, 60, 8}, Case{5, 2, 24.8, 60, 8}}) {
+    for (const Case& c : {Case{6, 0.5, 9.81, 60, 8}, Case{6, 0.5, 9.81, 120, 8}, Case{6, 0.5, 9.81, 60, 16},
+                          Case{6, 0.05, 9.81, 60, 8}, Case{5, 0.3, 1.62, 60, 8}, Case{5, 2, 24.8, 60, 8}}) {
         Settings settings;
         settings.rate = c.rate;
         settings.substeps = c.substeps;

@@ -138,6 +138,30 @@ TEST_CASE("a body whose load is taken away has its own mass", "[mass-scaling]") 
     CHECK(world.bodies()[1].velocity.x - before == Approx(1).epsilon(1e-3));
 }
 
+// The load goes along; an impulse on the light body alone would start it with 32 times its momentum if it had its own mass.
+TEST_CASE("an impulse on what bears a load changes momentum by as much, a velocity is what was set", "[mass-scaling]") {
+    Scene scene = tests::laden_column(2, 1, 1, 100);
+    scene.bodies[0].friction = 0;
+    scene.bodies[1].friction = scene.bodies[2].friction = 0.9f;
+    World world(scene, awake(), 1);
+    world.step(600);
+    const float light = static_cast<float>(mass_properties(scene.bodies[1]).mass);
+    const std::vector<BodyState> before = world.bodies();
+    const auto gained = [&] {
+        const std::vector<BodyState> bodies = world.bodies();
+        return light * (bodies[1].velocity.x - before[1].velocity.x) +
+               100 * light * (bodies[2].velocity.x - before[2].velocity.x);
+    };
+    const float impulse = 0.5f * light;
+    world.apply_impulse(1, {impulse, 0, 0});
+    world.step(120);
+    CHECK(gained() > 0.7f * impulse);
+    CHECK(gained() < 1.01f * impulse);
+    world.set_velocity(1, {3, 0, 0}, vec3(0));
+    world.step();
+    CHECK(gained() < 4 * light);
+}
+
 TEST_CASE("scaled masses have the same bits in lanes, with small tables, restored, and on ranks", "[mass-scaling][ranks]") {
     const Scene scene = tests::slivers_under_boxes(20, 12, 1).scene;
     World world(scene, awake(), make_reference_runner(1));

@@ -212,7 +212,7 @@ TEST_CASE("small sleepers are found by large bodies that come over them") {
 }
 
 TEST_CASE("a heap that sleeps and is struck is the same from tiny buffers and on many threads") {
-    Scene scene = tests::heap(100);
+    Scene scene = tests::heap(100, 2);
     for (Body& body : scene.bodies) body.rolling_resistance = 0.02f;
     Settings tiny;
     tiny.pairs_at_first = 1;
