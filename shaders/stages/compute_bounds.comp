@@ -5,8 +5,8 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/physics/solve/motion.h"
+#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/stages/lib/copies.glsl"
 
 // Skips the atomic where the bits are set already: most bodies add nothing, and a contended atomic is slow.

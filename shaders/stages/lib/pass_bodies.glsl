@@ -22,7 +22,8 @@ void begin_body(uint i, bool first) {
     Gathered sum = gather(i);
     BodyMass mass = READ(masses, i);
     float scale = mass_scale(mass, body);
-    Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, scaled_forces(READ(forces, i), scale), body, PARAMETERS);
+    Velocity velocity =
+        integrate_velocity(READ(velocities, i), sum.change, scaled_forces(READ(forces, i), scale), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
             velocity = pulled(velocity, READ(poses, i), whole_mass(mass), PARAMETERS.grips[k], PARAMETERS);
@@ -61,8 +62,7 @@ void move_body(uint i) {
     }
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
-    if (!has_isotropic_inertia(body))
-        masses.at[i] = mass_with_scale_of(READ(masses, i), body, after.pose.orientation);
+    if (!has_isotropic_inertia(body)) masses.at[i] = mass_with_scale_of(READ(masses, i), body, after.pose.orientation);
 }
 
 #endif
