@@ -175,9 +175,10 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::BodyProperties& properties = state.properties[body];
         const physics::Mass mass = physics::mass_in_world(properties, state.poses[body].orientation);
         const bool sets = (action.flags & physics::ACTION_SETS_VELOCITY) != 0 && properties.motion == physics::MOTION_DYNAMIC;
+        const bool begins = sets || physics::was_set(state.sleep_states[body]);
         if (!state.fixed().redo) {
             const physics::Mass struck =
-                physics::scaled_mass(mass, sets ? 1.0f : physics::mass_scale(state.masses[body], properties));
+                physics::scaled_mass(mass, begins ? 1.0f : physics::mass_scale(state.masses[body], properties));
             state.velocities[body] = physics::apply_impulses(state.velocities[body], action, struck, state.fixed());
         }
         physics::uint& rest = state.sleep_states[body];

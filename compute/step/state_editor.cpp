@@ -186,6 +186,7 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
         state_.properties.resize(std::max(rows_before, row + 1));  // an empty table has a record all the same
     }
     state_.properties[row] = compiler.properties_of(body, row);
+    if (!appended) begin_mass(row, changed);
     std::uint32_t first_part = std::max(rows_before, row + 1);
     compiler.append_parts(body, row);
     const auto parts = static_cast<std::uint32_t>(state_.properties.size()) - first_part;
@@ -285,6 +286,14 @@ TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     return changed;
 }
 
+// The record of a mass tells the scale relative to the properties (scaled_mass.h): of other properties, it would tell another
+// one.
+void StateEditor::begin_mass(std::uint32_t row, TableRanges& changed) {
+    state_.make(Table::masses);
+    state_.masses[row] = {};
+    changed.push_back({Table::masses, row, 1});
+}
+
 TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     const std::uint32_t row = state_.row_of(id);
     const auto [first, count] = parts_of(row);
@@ -292,12 +301,14 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     SceneCompiler compiler(state_);
     const ShapeLengths before = shape_lengths(state_);
     const bool quarantined = physics::is_quarantined(whole.motion) && body.motion == Motion::dynamic;
+    const float inverse_mass = whole.inverse_mass;
     SceneCompiler::set_mass(whole, body);
     if (quarantined) whole.motion = physics::MOTION_QUARANTINED;
     compiler.set_material(whole, body);
     const auto* compound = std::get_if<Compound>(&body.shape);
     const Material own = material_of(body);
     TableRanges changed{{Table::properties, row, 1}};
+    if (!quarantined && whole.inverse_mass != inverse_mass) begin_mass(row, changed);
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
         one.motion = static_cast<physics::uint>(body.motion) | physics::MOTION_OF_PART;

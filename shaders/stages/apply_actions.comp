@@ -16,8 +16,9 @@ void main() {
     BodyProperties body = READ(properties, action.body);
     Mass mass = mass_in_world(body, READ(poses, action.body).orientation);
     bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u && body.motion == MOTION_DYNAMIC;
+    bool begins = sets || was_set(WORD(sleep_states, action.body));
     if (PARAMETERS.redo == 0u) {
-        Mass struck = scaled_mass(mass, sets ? 1.0f : mass_scale(READ(masses, action.body), body));
+        Mass struck = scaled_mass(mass, begins ? 1.0f : mass_scale(READ(masses, action.body), body));
         velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, struck, PARAMETERS);
     }
     WORD(sleep_states, action.body) = sets ? RESTARTS : roused(WORD(sleep_states, action.body), PARAMETERS.sleep_steps);

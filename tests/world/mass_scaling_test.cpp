@@ -138,6 +138,52 @@ TEST_CASE("a body whose load is taken away has its own mass", "[mass-scaling]") 
     CHECK(world.bodies()[1].velocity.x - before == Approx(1).epsilon(1e-3));
 }
 
+TEST_CASE("a load whose support is taken away falls", "[mass-scaling]") {
+    for (const float ratio : {10.0f, 100.0f, 1000.0f}) {
+        Scene scene = tests::laden_column(2, 1, 1, ratio);
+        for (Body& body : scene.bodies) body.position.y += 100;
+        scene.bodies[0] = {.name = "support", .motion = Motion::fixed, .shape = Box{{2, 0.5f, 2}}, .position = {0, 99.5f, 0}};
+        World world(scene, awake(), 1);
+        world.step(600);
+        world.remove_body(0);
+        world.step(60);
+        INFO("ratio " << ratio);
+        CHECK(std::abs(world.bodies()[2].velocity.y + 9.81f) < 0.25f);
+    }
+}
+
+TEST_CASE("a mass that is changed, a new body at an old index, and what was set begin unscaled", "[mass-scaling]") {
+    Scene scene;
+    scene.gravity = vec3(0);
+    scene.bodies.push_back({.name = "box", .shape = Box{vec3(0.5f)}});
+    World world(scene, awake(), 1);
+    world.step(2);
+    world.set_mass(0, 1);
+    world.apply_impulse(0, {1, 0, 0});
+    world.step();
+    CHECK(world.bodies()[0].velocity.x == Approx(1).epsilon(1e-5));
+    world.set_mass(0, 1000);
+    world.step(2);
+    world.remove_body(0);
+    world.step();
+    Body light{.name = "light", .shape = Box{vec3(0.5f)}};
+    light.density = 1;
+    const std::size_t added = world.add_body(light);
+    REQUIRE(added == 0);
+    world.apply_impulse(0, {1, 0, 0});
+    world.step();
+    CHECK(world.bodies()[0].velocity.x == Approx(1).epsilon(1e-5));
+
+    const Scene column = tests::laden_column(2, 1, 1, 500);
+    World laden(column, awake(), 1);
+    laden.step(600);
+    const BodyChange away{.body = 1, .position = vec3(0, 50, 0), .velocity = vec3(0)};
+    laden.set_bodies({&away, 1});
+    laden.apply_impulse(1, {3 * static_cast<float>(mass_properties(column.bodies[1]).mass), 0, 0});
+    laden.step();
+    CHECK(laden.bodies()[1].velocity.x == Approx(3).epsilon(1e-4));
+}
+
 // The load goes along; an impulse on the light body alone would start it with 32 times its momentum if it had its own mass.
 TEST_CASE("an impulse on what bears a load changes momentum by as much, a velocity is what was set", "[mass-scaling]") {
     Scene scene = tests::laden_column(2, 1, 1, 100);

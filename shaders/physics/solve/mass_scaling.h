@@ -49,36 +49,46 @@ CONSTANT uint SCALE_GROWTH = 1u;
 CONSTANT uint CRUSHED_GROWTH = 8u;
 CONSTANT float CRUSHING_LOAD = 20.0f;  // over the present scale; with 8 the column of 80 drifts by 0.1 m
 CONSTANT float CRUSHING_SPEED = 0.1f;  // of the speed of a fall by half the body's radius
+// Scales of what falls are halved in a step. Heavier than its weight says, it falls more slowly than its load, which goes on
+// pressing. (With a speed of 0.1, upwards too, what is lifted has its own mass, but columns under 700 times their mass fall.)
+CONSTANT uint FALLING_DECAY = 32u;
+CONSTANT float FALLING_SPEED = 0.3f;
+CONSTANT float FALLING_LOAD = 2.0f;   // over the present scale: under more, a body is not falling but giving way
+CONSTANT float LEAST_GRAVITY = 0.1f;  // m/s^2; in less, what presses is no weight
 
 // The speed of a fall by half the body's radius, m/s.
 LAW float fall_of(BodyProperties properties, float pull) {
     return square_root(pull * bounding_radius(properties.shape, properties.size));
 }
-LAW bool is_in_motion(BodyProperties properties, Velocity velocity, vec3 gravity) {
+LAW bool moves_across(BodyProperties properties, Velocity velocity, vec3 gravity) {
     float pull = length3(gravity);
     vec3 across = velocity.linear - gravity * (dot3(velocity.linear, gravity) * reciprocal(pull * pull));
     float speed = length3(across) + length3(velocity.angular) * bounding_radius(properties.shape, properties.size);
     return speed > RESTING * fall_of(properties, pull);
 }
-LAW bool sinks(BodyProperties properties, Velocity velocity, vec3 gravity) {
+// Whether it moves along gravity faster than a part of the speed of that fall.
+LAW bool sinks(BodyProperties properties, Velocity velocity, vec3 gravity, float part) {
     float pull = length3(gravity);
-    return dot3(velocity.linear, gravity) > (CRUSHING_SPEED * pull) * fall_of(properties, pull);
+    return dot3(velocity.linear, gravity) > (part * pull) * fall_of(properties, pull);
 }
 // The scale in this step. `mass`: with the normal impulses of the step's first warm start, which press on the body from two
 // sides.
 LAW float next_mass_scale(BodyMass mass, BodyProperties properties, Velocity velocity, Parameters parameters) {
+    vec3 gravity = parameters.gravity;
     float pressing = normal_impulses_of(mass.split_state) * properties.inverse_mass, before = mass_scale(mass, properties);
-    float weight = SCALED_LOAD * (2.0f * (parameters.h * length3(parameters.gravity)));
+    float weight = SCALED_LOAD * (2.0f * (parameters.h * larger(length3(gravity), LEAST_GRAVITY)));
     bool bears = has_weight(parameters) && properties.joints == NONE && pressing > weight;
     if (!bears && (before == 1.0f || contact_count_of(mass.split_state) == 0.0f)) return 1.0f;
-    bool rests = bears && !is_in_motion(properties, velocity, parameters.gravity);
-    float asked = rests ? smaller(pressing * reciprocal(weight), GREATEST_SCALE) : 1.0f;
-    if (asked < LEAST_SCALE * (before > 1.0f ? KEPT_FROM : 1.0f)) asked = 1.0f;
+    float asked = bears ? smaller(pressing * reciprocal(weight), GREATEST_SCALE) : 1.0f;
+    bool crushed = asked > CRUSHING_LOAD * before && sinks(properties, velocity, gravity, CRUSHING_SPEED);
+    bool falls = !(asked > FALLING_LOAD * before) && sinks(properties, velocity, gravity, FALLING_SPEED);
+    bool rests = bears && !falls && !moves_across(properties, velocity, gravity);
+    if (!rests || asked < LEAST_SCALE * (before > 1.0f ? KEPT_FROM : 1.0f)) asked = 1.0f;
     if (rests && asked > KEPT_FROM * before && asked < KEPT_TO * before) return before;
     uint code = floatBitsToUint(before) >> SCALE_SHIFT, aim = floatBitsToUint(asked) >> SCALE_SHIFT;
-    bool crushed = asked > CRUSHING_LOAD * before && sinks(properties, velocity, parameters.gravity);
     if (code < aim) return scale_from(code + (crushed ? CRUSHED_GROWTH : SCALE_GROWTH));
-    return scale_from(code > aim + SCALE_DECAY ? code - SCALE_DECAY : aim);
+    uint decay = falls ? FALLING_DECAY : SCALE_DECAY;
+    return scale_from(code > aim + decay ? code - decay : aim);
 }
 
 LAWS_END
