@@ -197,7 +197,8 @@ DemoScene hulls1m(const DemoOptions& options) {
         at_most("mean penetration when settled", 0.0006, "m", fmt::format("over the points that penetrate, after {} s", when),
                 [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
     return awake({pile_in(pit, options, metre_stone), view_of(low, high, 35, 38), low, high, static_cast<float>(when),
-                  Promise(mean, because(penetration_when_settled(when), "the limit of boxes")).sampling({every_step, when})});
+                  Promise(mean, because(penetration_when_settled(when), "the limit of boxes, which penetrate deeper than hulls"))
+                      .sampling({every_step, when})});
 }
 
 // Clumps of 3 x 3 x 3 bodies that overlap by half along every axis: the depenetration speed must be limited.

@@ -9,8 +9,9 @@
 //
 // The price: a body that begins to move under a load has up to a third of the load's inertia on top of its own and the load's,
 // until it is faster than `RESTING` (a box under ten times its mass, pulled with 1 m/s^2 over ice, lags by 27 mm/s after a
-// second). Loads below five weights scale nothing, those above nine do. Bodies on joints keep their mass: their blocks are solved
-// exactly.
+// second). What a force lifts under a load lags for as long as it is lifted. A load whose support is taken away is up to 0.22 m/s
+// late after a second, on a column of ten 1.7 m/s. Loads below five weights scale nothing, those above nine do. Bodies on joints
+// keep their mass: their blocks are solved exactly.
 //
 // Scales follow loads slowly and with hysteresis: a pressed spring that stiffens gains energy. With growth by a tenth in a step
 // columns of 80 fell and a pyramid of 5,050 swayed by 0.1 m; with scales that end at once where a body moves, slivers under
@@ -39,7 +40,7 @@ CONSTANT float LEAST_SCALE = 3.0f;
 CONSTANT float KEPT_FROM = 0.6f;
 CONSTANT float KEPT_TO = 1.2f;
 // Surface speed across gravity from which scales shrink, of the speed of a fall by half the body's radius: 0.09 m/s for a box of
-// 1 m. Speed along gravity does not count: what is being crushed sinks.
+// 1 m. Speed along gravity counts only where the body falls (FALLING_SPEED): what is being crushed sinks.
 CONSTANT float RESTING = 0.03f;
 // Units of a scale (scaled_mass.h) in a step. Scales shrink by 6 to 12% where the body moves or the load falls, and grow by 1.6
 // to 3.1%. A body that is being crushed, which sinks and whose load asks for a multiple of its scale, follows by 12 to 25%: of 16
