@@ -62,7 +62,7 @@ std::size_t argument_offset(physics::uint row) {
 
 }  // namespace
 
-DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
+DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)), transfer_(device_) {}
 DeviceRunner::~DeviceRunner() {
     if (!device_) return;
     try {
@@ -169,6 +169,16 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
         missing[i].second.emplace(layout_, shader.c_str(), shaders::find(shader + variant), constants_of(stage));
     });
     for (auto& [stage, pipeline] : missing) pipelines_.emplace(pipeline_of(*stage), std::move(*pipeline));
+}
+
+std::vector<std::pair<std::string, std::vector<host::PipelineStatistic>>> DeviceRunner::pipeline_statistics() const {
+    std::vector<std::pair<std::string, std::vector<host::PipelineStatistic>>> all;
+    for (const Stage& stage : recorded_) {
+        const std::string name = stage.name + stage.way;
+        if (std::none_of(all.begin(), all.end(), [&](const auto& other) { return other.first == name; }))
+            all.emplace_back(name, pipelines_.at(pipeline_of(stage)).statistics());
+    }
+    return all;
 }
 
 // A grown world may no longer be small.

@@ -25,6 +25,7 @@
 #include "host/vulkan/command_buffer.h"
 #include "host/vulkan/device.h"
 #include "host/vulkan/pipeline.h"
+#include "host/vulkan/transfer.h"
 
 namespace scree {
 
@@ -55,6 +56,8 @@ public:
     std::size_t submissions_of_a_step() const { return pieces_; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
+    // What the driver tells of each dispatch's pipeline (host::DeviceOptions::statistics), in the order of the step.
+    std::vector<std::pair<std::string, std::vector<host::PipelineStatistic>>> pipeline_statistics() const;
 
     // The buffer range of a table, for canvases. Changes after a step that grew buffers.
     struct Range {
@@ -72,6 +75,9 @@ public:
     void resume_step() override { give_inputs(); }
     void run_stages(std::size_t first, std::size_t last) override;
     void read(Table table, std::span<std::byte> bytes, std::size_t offset = 0) const;
+    // The first bytes of several tables, in one transfer.
+    using Contents = std::vector<std::pair<Table, std::span<std::byte>>>;
+    void read(const Contents& contents) const;
     void write(Table table, std::span<const std::byte> bytes);
     // Whether stages are fused because the world is small.
     bool is_fused() const {
@@ -119,6 +125,7 @@ private:
     void receive(const std::vector<TableRange>& ranges) override;
 
     std::shared_ptr<host::Device> device_;
+    mutable host::Transfer transfer_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     Threads threads_{0};

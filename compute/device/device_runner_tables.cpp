@@ -161,7 +161,8 @@ void DeviceRunner::upload_all() {
 void DeviceRunner::send_parameters() {
     const physics::Parameters& p = state_->fixed();
     if (std::memcmp(&p, &sent_, sizeof p) == 0) return;
-    buffer(Table::parameters).write(&p, sizeof p);
+    const host::Upload piece{std::as_bytes(std::span(&p, 1)), &buffer(Table::parameters)};
+    transfer_.upload({&piece, 1});
     sent_ = p;
 }
 
@@ -174,11 +175,19 @@ void DeviceRunner::give_inputs() {
 }
 
 void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {
-    buffer(table).read(bytes.data(), bytes.size(), range(table).offset + offset);
+    const host::Download piece{bytes, &buffer(table), range(table).offset + offset};
+    transfer_.download({&piece, 1});
+}
+
+void DeviceRunner::read(const Contents& contents) const {
+    std::vector<host::Download> pieces;
+    for (const auto& [table, bytes] : contents) pieces.push_back({bytes, &buffer(table), range(table).offset});
+    transfer_.download(pieces);
 }
 
 void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
-    buffer(table).write(bytes.data(), bytes.size(), range(table).offset);
+    const host::Upload piece{bytes, &buffer(table), range(table).offset};
+    transfer_.upload({&piece, 1});
 }
 
 DeviceRunner::Range DeviceRunner::range(Table table) const {
@@ -188,13 +197,17 @@ DeviceRunner::Range DeviceRunner::range(Table table) const {
 
 void DeviceRunner::poison() {
     const std::vector<Table>& lasting = lasting_tables();
+    host::CommandBuffer commands(device_);
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         const auto is_in_its_memory = [&](Table one) { return share_memory(one, table); };
         if (std::any_of(lasting.begin(), lasting.end(), is_in_its_memory)) continue;
-        const std::vector<std::byte> garbage(range(table).bytes, std::byte{0xCD});
-        write(table, garbage);
+        const auto [buffer, offset, bytes] = range(table);
+        commands.fill(*buffer, 0xCDCDCDCD, bytes, offset);
+        commands.barrier();  // the next table may share this memory
     }
+    commands.end();
+    device_->submit_and_wait({commands.handle()});
 }
 
 void DeviceRunner::send(const TableRanges& ranges) {
@@ -205,7 +218,7 @@ void DeviceRunner::send(const TableRanges& ranges) {
         pieces.push_back({std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes),
                           &buffer(range.table), this->range(range.table).offset + range.first * bytes});
     }
-    host::upload(device_, pieces);
+    transfer_.upload(pieces);
 }
 
 void DeviceRunner::receive(const TableRanges& ranges) {
@@ -216,7 +229,7 @@ void DeviceRunner::receive(const TableRanges& ranges) {
         pieces.push_back({state_->raw(range.table).subspan(range.first * bytes, range.count * bytes), &buffer(range.table),
                           this->range(range.table).offset + range.first * bytes});
     }
-    host::download(device_, pieces);
+    transfer_.download(pieces);
 }
 
 void DeviceRunner::keep(std::size_t slot, const TableRanges& ranges) {

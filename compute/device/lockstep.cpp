@@ -46,14 +46,21 @@ struct Lockstep::Impl {
     bool compare(const Stage& stage, std::size_t index) {
         there.run_stages(index, index + 1);
         result.stage = stage.name;
-        // After an overflow only counts are written.
-        return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {
-            if (state.counted().overflow != 0 && compared.table != Table::counts) return true;
-            std::vector<std::byte> found(live_bytes(state, compared).size());
-            if (!found.empty()) there.read(compared.table, found);
-            return table_equal(state, found, compared, "cpu", "device", result);
-        });
+        std::vector<std::vector<std::byte>> found(stage.compared.size());
+        DeviceRunner::Contents contents;
+        for (std::size_t i = 0; i < stage.compared.size(); ++i) {
+            found[i].resize(is_written(stage.compared[i]) ? live_bytes(state, stage.compared[i]).size() : 0);
+            contents.emplace_back(stage.compared[i].table, found[i]);
+        }
+        there.read(contents);
+        for (std::size_t i = 0; i < stage.compared.size(); ++i)
+            if (is_written(stage.compared[i]) && !table_equal(state, found[i], stage.compared[i], "cpu", "device", result))
+                return false;
+        return true;
     }
+
+    // After an overflow only counts are.
+    bool is_written(const Compared& compared) const { return state.counted().overflow == 0 || compared.table == Table::counts; }
 
     // False if a buffer had to grow first.
     bool attempt(bool redo) {

@@ -129,6 +129,7 @@ Measurement measure(const SceneOptions& scene, const BenchOptions& options, cons
             result.step.bytes += result.stages.back().bytes;
         }
         result.buffer_bytes = world.buffer_bytes();
+        result.pipelines = machine.pipelines(world.runner());
         result.copy_speed = copy_speed;
         return result;
     });

@@ -39,7 +39,8 @@ struct Measurement {
     double p95 = 0, min = 0;
     std::vector<StageCost> stages;  // GPU timestamps or CPU wall clock, in the order of the plan
     std::size_t buffer_bytes = 0;
-    double copy_speed = 0;  // bytes per second, reads plus writes, measured on this device
+    std::vector<PipelineFigures> pipelines;  // if asked for, and the driver tells
+    double copy_speed = 0;                   // bytes per second, reads plus writes, measured on this device
 
     double microseconds_per_body() const;
 };
@@ -49,6 +50,7 @@ Measurement measure(const SceneOptions& scene, const BenchOptions& options, cons
 
 std::vector<Cells> overview(const std::vector<Measurement>& all);   // one row per measurement
 std::vector<Cells> stage_rows(const Measurement& measurement);      // one row per stage with a noticeable share
+std::vector<Cells> pipeline_rows(const Measurement& measurement);   // one row per stage, one column per figure
 std::vector<Cells> long_form(const std::vector<Measurement>& all);  // one row per stage and measurement, for plots
 
 }  // namespace scree::demos

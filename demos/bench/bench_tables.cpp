@@ -65,6 +65,25 @@ std::vector<Cells> stage_rows(const Measurement& m) {
     return rows;
 }
 
+std::vector<Cells> pipeline_rows(const Measurement& m) {
+    std::vector<Cells> rows = {{"stage"}};
+    Cells& names = rows.front();
+    for (const PipelineFigures& pipeline : m.pipelines) {
+        for (const auto& [name, value] : pipeline.figures)
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    const Cells columns = names;
+    for (const PipelineFigures& pipeline : m.pipelines) {
+        Cells row(columns.size());
+        row[0] = pipeline.stage;
+        for (const auto& [name, value] : pipeline.figures)
+            row[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin())] =
+                fmt::format("{:g}", value);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 std::vector<Cells> long_form(const std::vector<Measurement>& all) {
     std::vector<Cells> rows = {{"demo", "backend", "device", "bodies", "manifolds", "points", "asleep", "buffer_bytes", "stage",
                                 "ms_median", "ms_25", "ms_75", "ms_mean", "bytes", "copy_bytes_per_s", "share_of_copy"}};

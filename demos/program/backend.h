@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compute/distributed/exchange.h"
@@ -17,6 +18,11 @@ class Device;
 
 namespace scree::demos {
 
+struct PipelineFigures {
+    std::string stage;
+    std::vector<std::pair<std::string, double>> figures;  // such as registers of a thread
+};
+
 struct Backend {
     MachineOptions options;
     std::shared_ptr<host::Device> device;            // null for the CPU
@@ -30,6 +36,8 @@ struct Backend {
     bool has_own_memory() const;  // whether it is a device whose memory is not this process's
     // Where the device's arithmetic gives other bits than the CPU's (compute/device/arithmetic_check.h); empty: nowhere.
     std::string arithmetic_fault() const;
+    // What the driver tells of each stage's pipeline, in its words; empty: nothing, or not asked for (MachineOptions::pipelines).
+    std::vector<PipelineFigures> pipelines(Runner& runner) const;
     double copy_speed() const;  // bytes per second, reads plus writes (host/copy_speed.h); takes a moment
     // Throws WorkFailed with the validation layers' messages, if there are any.
     void require_valid() const;

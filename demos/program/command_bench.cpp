@@ -70,6 +70,13 @@ void print(const BenchCommandOptions& options, const std::vector<Measurement>& a
         first.backend, first.device, options.bench.steps, settled, options.bench.warmup, first.copy_speed / 1e9,
         table(overview(all)));
     for (const Measurement& m : all) fmt::print("{}, {} bodies\n{}\n", m.name, m.statistics.bodies, table(stage_rows(m)));
+    if (!options.machine.pipelines) return print_spread(all);
+    for (const Measurement& m : all) {
+        if (m.pipelines.empty())
+            fmt::print("{}: the driver tells nothing of its pipelines\n", m.device);
+        else
+            fmt::print("{}: what the driver tells of its pipelines\n{}\n", m.name, table(pipeline_rows(m)));
+    }
     print_spread(all);
 }
 
@@ -140,6 +147,8 @@ void add_bench(CLI::App& program, int& status) {
     command->add_flag("--sleep", options->sleeping, "Let bodies at rest sleep. Default: all stay awake.");
     command->add_option("--csv", options->csv, "CSV file; - is the standard output.");
     add_options(*command, options->machine);
+    command->add_flag("--pipelines", options->machine.pipelines,
+                      "Show what the driver tells of each stage's pipeline: registers, spilled bytes, size of its code.");
     command->add_flag("--quiet,-q", options->bench.quiet, "Print no progress.");
     command->footer(
         "Stage times are GPU timestamps, or wall-clock time with --backend cpu. Timestamps cost 10 us each on\n"

@@ -24,6 +24,7 @@ struct MachineOptions {
     std::string device;  // index or part of a name
     int threads = 0;     // 0: one per core
     bool validate = false;
+    bool pipelines = false;  // the device tells statistics of its pipelines
     std::size_t memory = 0;  // bytes that the tables of steps may take; 0: what is free
 };
 

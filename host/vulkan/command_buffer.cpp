@@ -46,9 +46,6 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     info.commandBufferCount = 1;
-    VkCommandBufferBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    begin.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
     VkQueryPoolCreateInfo queries{};
     queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -58,7 +55,7 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     check(vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_), "beginning a command buffer");
     info.commandPool = pool_;
     VkResult result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
-    if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
+    if (result == VK_SUCCESS) result = begin();
     if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
     if (result != VK_SUCCESS) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
     check(result, "beginning a command buffer");
@@ -67,6 +64,24 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     if (!queries_) return;
     device_->set_name(VK_OBJECT_TYPE_QUERY_POOL, queries_, "timestamps");
     vk.vkCmdResetQueryPool(commands_, queries_, 0, timestamps);
+}
+
+VkResult CommandBuffer::begin() {
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
+    return device_->vk().vkBeginCommandBuffer(commands_, &info);
+}
+
+void CommandBuffer::begin_again() {
+    const VulkanFunctions& vk = device_->vk();
+    check(vk.vkResetCommandPool(device_->handle(), pool_, 0), "beginning a command buffer again");
+    check(begin(), "beginning a command buffer again");
+    bound_pipeline_ = VK_NULL_HANDLE;
+    bound_set_ = VK_NULL_HANDLE;
+    bound_layout_ = VK_NULL_HANDLE;
+    timestamps_written_ = push_bytes_ = 0;
+    if (queries_) vk.vkCmdResetQueryPool(commands_, queries_, 0, timestamps_);
 }
 
 CommandBuffer::~CommandBuffer() {
@@ -137,6 +152,11 @@ void CommandBuffer::barrier() {
 
 void CommandBuffer::zero(const Buffer& buffer) {
     device_->vk().vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
+}
+
+void CommandBuffer::fill(const Buffer& buffer, std::uint32_t word, std::size_t bytes, std::size_t offset) {
+    check_range(buffer, bytes, offset);
+    if (bytes > 0) device_->vk().vkCmdFillBuffer(commands_, buffer.handle(), offset, bytes, word);
 }
 
 void CommandBuffer::copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset,

@@ -15,6 +15,7 @@ public:
     // Begins recording. `timestamps`: capacity for timestamp() calls.
     explicit CommandBuffer(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
     ~CommandBuffer();
+    void begin_again();  // drops the recording, whose submissions must have completed
     CommandBuffer(CommandBuffer&& other) noexcept;
     CommandBuffer& operator=(CommandBuffer&& other) noexcept;
 
@@ -23,7 +24,8 @@ public:
     void dispatch(std::uint32_t groups, std::uint32_t rows = 1);          // workgroups along the first and the second axis
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
     void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
-    void zero(const Buffer& buffer);  // the whole buffer
+    void zero(const Buffer& buffer);                                                             // the whole buffer
+    void fill(const Buffer& buffer, std::uint32_t word, std::size_t bytes, std::size_t offset);  // whole words
     void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);
     void timestamp();
     void end();  // ends recording; makes writes visible to the host and to later submissions
@@ -36,6 +38,7 @@ public:
     std::vector<double> timestamps() const;
 
 private:
+    VkResult begin();
     std::vector<std::uint64_t> ticks() const;
     std::shared_ptr<Device> device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

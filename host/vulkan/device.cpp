@@ -97,6 +97,16 @@ const DeviceReport& choose(const std::vector<DeviceReport>& reports, const std::
     return *chosen;
 }
 
+bool has_statistics(const VulkanFunctions& vk, VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
+        return std::string(extension.extensionName) == VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    });
+}
+
 }  // namespace
 
 struct Device::Impl {
@@ -113,6 +123,7 @@ struct Device::Impl {
     std::unique_ptr<PipelineCache> cache;
     std::unique_ptr<SharedPipelines> pipelines;
     bool staged = false;
+    bool tells_statistics = false;
     bool has_timelines = false;
     bool is_adopted = false;  // belongs to the host program
     VkInstance adopted_instance = VK_NULL_HANDLE;
@@ -177,9 +188,18 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     info.pNext = &addresses;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-    info.enabledExtensionCount = options.window_extensions.empty() ? 0 : 1;
-    info.ppEnabledExtensionNames = &swapchain;
+    std::vector<const char*> extensions;
+    if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{};
+    statistics.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+    statistics.pipelineExecutableInfo = VK_TRUE;
+    in.tells_statistics = options.statistics && has_statistics(in.vk, in.physical);
+    if (in.tells_statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        timelines.pNext = &statistics;
+    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check_made(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str(), in.device);
     if (const char* missing = in.vk.load_device(in.device)) {
         throw DeviceError("the driver of " + in.report.name + " lacks " + missing);
@@ -262,6 +282,9 @@ const VkPhysicalDeviceMemoryProperties& Device::memory() const {
 }
 bool Device::staged() const {
     return interior_->staged;
+}
+bool Device::tells_statistics() const {
+    return interior_->tells_statistics;
 }
 std::uint32_t Device::timestamp_bits() const {
     return interior_->timestamp_bits;

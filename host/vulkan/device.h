@@ -58,6 +58,8 @@ struct DeviceOptions {
     bool validation = false;  // core and synchronisation validation (DeviceError if the layer is not installed)
     // Treats device memory as not host-visible, as on most discrete GPUs, so that buffers go through staging copies.
     bool staged = false;
+    // Pipelines tell their statistics where the driver can (Pipeline::statistics).
+    bool statistics = false;
     // If not 0, caps the largest storage buffer binding, bytes.
     std::uint64_t largest_binding = 0;
     // Never uses texel buffers, as on a GPU.
@@ -93,6 +95,7 @@ public:
     const VkPhysicalDeviceLimits& limits() const;
     const VkPhysicalDeviceMemoryProperties& memory() const;
     bool staged() const;                   // see DeviceOptions
+    bool tells_statistics() const;         // likewise; false where the driver cannot
     std::uint32_t timestamp_bits() const;  // 0: the queue has no timestamps
     // Loaded from cache_folder() on opening and saved there on destruction.
     VkPipelineCache pipeline_cache() const;

@@ -250,12 +250,26 @@ VkPipeline make_compute_pipeline(const BindingSetLayout& layout, const char* nam
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = specialisation.empty() ? nullptr : &constants;
     info.layout = layout.pipeline_layout();
+    if (device.tells_statistics()) info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result = vk.vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline);
     vk.vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, (std::string("the pipeline ") + name).c_str());
     device.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
     return pipeline;
+}
+
+double value_of(const VkPipelineExecutableStatisticKHR& statistic) {
+    switch (statistic.format) {
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
+            return statistic.value.b32;
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
+            return static_cast<double>(statistic.value.i64);
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
+            return static_cast<double>(statistic.value.u64);
+        default:
+            return statistic.value.f64;
+    }
 }
 
 }  // namespace
@@ -276,6 +290,33 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     std::swap(layout_, other.layout_);
     std::swap(made_, other.made_);
     return *this;
+}
+
+std::vector<PipelineStatistic> Pipeline::statistics() const {
+    const Device& device = *layout_->device();
+    const VulkanFunctions& vk = device.vk();
+    if (!device.tells_statistics()) return {};
+    VkPipelineInfoKHR of{};
+    of.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR;
+    of.pipeline = handle();
+    std::uint32_t executables = 0;
+    check(vk.vkGetPipelineExecutablePropertiesKHR(device.handle(), &of, &executables, nullptr), "statistics of a pipeline");
+    std::vector<PipelineStatistic> all;
+    for (std::uint32_t i = 0; i < executables; ++i) {
+        VkPipelineExecutableInfoKHR executable{};
+        executable.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR;
+        executable.pipeline = handle();
+        executable.executableIndex = i;
+        std::uint32_t count = 0;
+        check(vk.vkGetPipelineExecutableStatisticsKHR(device.handle(), &executable, &count, nullptr), "statistics of a pipeline");
+        VkPipelineExecutableStatisticKHR empty{};
+        empty.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+        std::vector<VkPipelineExecutableStatisticKHR> statistics(count, empty);
+        check(vk.vkGetPipelineExecutableStatisticsKHR(device.handle(), &executable, &count, statistics.data()),
+              "statistics of a pipeline");
+        for (const VkPipelineExecutableStatisticKHR& one : statistics) all.push_back({one.name, value_of(one)});
+    }
+    return all;
 }
 
 }  // namespace scree::host

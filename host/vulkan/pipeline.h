@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/vulkan/buffer.h"
@@ -81,6 +82,12 @@ private:
     std::vector<VkBufferView> views_;
 };
 
+// What a driver tells of a compiled shader, such as the registers of a thread or the bytes that it spills, in the driver's words.
+struct PipelineStatistic {
+    std::string name;
+    double value = 0;
+};
+
 // A compute pipeline of a device, compiled if no world on the device has made an equal one.
 class Pipeline {
 public:
@@ -93,6 +100,8 @@ public:
     VkPipeline handle() const { return made_->handle(); }
     VkPipelineLayout layout() const { return layout_->pipeline_layout(); }
     std::uint32_t push_bytes() const { return layout_->push_bytes(); }
+    // Empty unless the device was opened to tell them and the driver does.
+    std::vector<PipelineStatistic> statistics() const;
 
 private:
     // In this order: the layout keeps the device, which the pipeline needs to the end.

@@ -1,7 +1,8 @@
-// Batched copies between host and buffers: direct where the memory is mapped, else through one staging buffer.
+// Batched copies between host memory and buffers.
 #include "host/vulkan/transfer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <iterator>
 #include <map>
@@ -15,7 +16,7 @@
 namespace scree::host {
 namespace {
 
-constexpr std::size_t most_staged = std::size_t{16} << 20;  // bytes staged per submission
+constexpr std::size_t least_staged = std::size_t{64} << 10, most_staged = std::size_t{16} << 20;  // bytes per submission
 
 void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
     if (offset <= size && bytes <= size - offset) return;
@@ -41,11 +42,19 @@ private:
     std::map<VkBuffer, std::map<std::size_t, std::size_t>> ranges_;  // begin, end
 };
 
-// A staging buffer that is filled, submitted when full, and reused.
+// Makes a staging buffer that holds `bytes`, or as much as a submission may, unless it does already.
+void hold(Buffer& staging, const std::shared_ptr<Device>& device, const char* name, std::size_t bytes, BufferUse use) {
+    const std::size_t wanted = std::min(std::bit_ceil(std::max(bytes, least_staged)), most_staged);
+    if (staging && staging.bytes() >= wanted) return;
+    staging = {};  // freed first
+    staging = Buffer(device, name, wanted, use);
+}
+
+// The filling of a staging buffer, which is submitted when full and reused.
 class Staging {
 public:
-    Staging(const std::shared_ptr<Device>& device, const char* name, std::size_t bytes, BufferUse use)
-        : device_(device), buffer_(device, name, std::min(bytes, most_staged), use) {}
+    Staging(const std::shared_ptr<Device>& device, const Buffer& buffer, std::optional<CommandBuffer>& copies)
+        : device_(device), buffer_(buffer), copies_(copies) {}
 
     // Splits a piece to fit: calls copy(recording, buffer, offset in it, done, count) for each part, and `sent` after
     // each submission.
@@ -54,43 +63,50 @@ public:
         for (std::size_t done = 0; done < bytes;) {
             if (used_ == buffer_.bytes()) submit(sent);
             const std::size_t count = std::min(bytes - done, buffer_.bytes() - used_);
-            if (!recording_) recording_.emplace(device_);
-            copy(*recording_, buffer_, used_, done, count);
+            if (used_ == 0) begin();
+            copy(*copies_, buffer_, used_, done, count);
             used_ += count;
             done += count;
         }
     }
     template <typename Sent>
     void submit(const Sent& sent) {
-        if (!recording_) return;
-        recording_->end();
-        device_->submit_and_wait({recording_->handle()});
-        recording_.reset();
+        if (used_ == 0) return;
+        copies_->end();
+        device_->submit_and_wait({copies_->handle()});
         sent(static_cast<const std::byte*>(buffer_.mapped()));
         used_ = 0;
     }
 
 private:
+    void begin() {
+        if (copies_)
+            copies_->begin_again();
+        else
+            copies_.emplace(device_);
+    }
+
     std::shared_ptr<Device> device_;
-    Buffer buffer_;
-    std::optional<CommandBuffer> recording_;
+    const Buffer& buffer_;
+    std::optional<CommandBuffer>& copies_;
     std::size_t used_ = 0;
 };
 
 }  // namespace
 
-void upload(const std::shared_ptr<Device>& device, std::span<const Upload> pieces) {
+void Transfer::upload(std::span<const Upload> pieces) {
     std::size_t staged = 0;
     for (const Upload& piece : pieces) {
         check_range(piece.data.size(), piece.offset, piece.to->bytes());
         if (!piece.to->mapped()) staged += piece.data.size();
     }
-    device->wait_idle();
+    device_->wait_idle();
     for (const Upload& piece : pieces)
         if (piece.to->mapped() && !piece.data.empty())
             std::memcpy(static_cast<std::byte*>(piece.to->mapped()) + piece.offset, piece.data.data(), piece.data.size());
     if (staged == 0) return;
-    Staging staging(device, "staging for writing", staged, BufferUse::upload);
+    hold(sent_, device_, "staging for writing", staged, BufferUse::upload);
+    Staging staging(device_, sent_, copies_);
     Written written;
     const auto sent = [&](const std::byte*) { written.clear(); };
     for (const Upload& piece : pieces) {
@@ -112,18 +128,19 @@ void upload(const std::shared_ptr<Device>& device, std::span<const Upload> piece
     staging.submit(sent);
 }
 
-void download(const std::shared_ptr<Device>& device, std::span<const Download> pieces) {
+void Transfer::download(std::span<const Download> pieces) {
     std::size_t staged = 0;
     for (const Download& piece : pieces) {
         check_range(piece.data.size(), piece.offset, piece.from->bytes());
         if (!piece.from->mapped()) staged += piece.data.size();
     }
-    device->wait_idle();
+    device_->wait_idle();
     for (const Download& piece : pieces)
         if (piece.from->mapped() && !piece.data.empty())
             std::memcpy(piece.data.data(), static_cast<const std::byte*>(piece.from->mapped()) + piece.offset, piece.data.size());
     if (staged == 0) return;
-    Staging staging(device, "staging for reading", staged, BufferUse::readback);
+    hold(received_, device_, "staging for reading", staged, BufferUse::readback);
+    Staging staging(device_, received_, copies_);
     struct Part {
         std::byte* to;
         std::size_t place, count;
@@ -144,6 +161,13 @@ void download(const std::shared_ptr<Device>& device, std::span<const Download> p
             sent);
     }
     staging.submit(sent);
+}
+
+void upload(const std::shared_ptr<Device>& device, std::span<const Upload> pieces) {
+    Transfer(device).upload(pieces);
+}
+void download(const std::shared_ptr<Device>& device, std::span<const Download> pieces) {
+    Transfer(device).download(pieces);
 }
 
 }  // namespace scree::host

@@ -48,6 +48,10 @@ namespace scree::host {
 #define SCREE_VULKAN_DEBUG_FUNCTIONS(X) \
     X(vkCreateDebugUtilsMessengerEXT) X(vkDestroyDebugUtilsMessengerEXT) X(vkSetDebugUtilsObjectNameEXT)
 
+// VK_KHR_pipeline_executable_properties; null unless the device was opened to tell statistics of pipelines.
+#define SCREE_VULKAN_STATISTICS_FUNCTIONS(X) \
+    X(vkGetPipelineExecutablePropertiesKHR) X(vkGetPipelineExecutableStatisticsKHR)
+
 // VK_KHR_surface and VK_KHR_swapchain; null unless the device was opened for a window.
 #define SCREE_VULKAN_SURFACE_FUNCTIONS(X) \
     X(vkDestroySurfaceKHR) X(vkGetPhysicalDeviceSurfaceSupportKHR) X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
@@ -63,6 +67,7 @@ struct VulkanFunctions {
     SCREE_VULKAN_INSTANCE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEBUG_FUNCTIONS(SCREE_VULKAN_POINTER)
+    SCREE_VULKAN_STATISTICS_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_SURFACE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_VULKAN_POINTER)
 #undef SCREE_VULKAN_POINTER

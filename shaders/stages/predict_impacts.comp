@@ -32,11 +32,12 @@ void main() {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;
         return;
     }
-    uint struck = any_fast && is_impacting(normal, va, vb) ? STRUCK : 0u;
-    bool driven_a = drives_b || (struck != 0u && outweighs(whole_b, whole_a));
-    bool driven_b = drives_a || (struck != 0u && outweighs(whole_a, whole_b));
-    uint flags_a = struck | (driven_a ? DRIVEN : 0u);
-    uint flags_b = struck | (driven_b ? DRIVEN : 0u);
-    if (flags_a != 0u) atomicOr(bounds.at[of_a].sweep.struck, flags_a);
-    if (flags_b != 0u) atomicOr(bounds.at[of_b].sweep.struck, flags_b);
+    bool strikes = any_fast && is_impacting(normal, va, vb);
+    bool driven_a = drives_b || (strikes && outweighs(whole_b, whole_a));
+    bool driven_b = drives_a || (strikes && outweighs(whole_a, whole_b));
+    uint flags_a = (strikes ? STRUCK : 0u) | (driven_a ? DRIVEN : 0u);
+    uint flags_b = (strikes ? STRUCK : 0u) | (driven_b ? DRIVEN : 0u);
+    // Whatever the flags: with `if (flags_a != 0u)`, the driver NVIDIA 580.159 left out bodies that have both.
+    atomicOr(bounds.at[of_a].sweep.struck, flags_a);
+    atomicOr(bounds.at[of_b].sweep.struck, flags_b);
 }

@@ -301,6 +301,14 @@ TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[
     REQUIRE(says(bench.output, "% of copying"));
 }
 
+TEST_CASE("program: bench shows what a driver tells of its pipelines, or says that it tells nothing", "[program]") {
+    const Outcome bench = run_scree("bench rest --steps 1 --warmup 1 --backend vulkan --pipelines -q");
+    INFO(bench.errors);
+    REQUIRE(bench.status == 0);
+    REQUIRE((says(bench.output, "rest: what the driver tells of its pipelines") ||
+             says(bench.output, "tells nothing of its pipelines")));
+}
+
 TEST_CASE("program: bench measures pairs of two kinds that touch, and refuses what it would leave out", "[program]") {
     const Outcome bench =
         run_scree("bench --pairs 60 hull-box sphere-sphere --steps 5 --backend cpu --threads 1 --quiet --csv -");

@@ -23,6 +23,16 @@ std::unique_ptr<Runner> Backend::make_runner(std::shared_ptr<Exchange> exchange)
                   : make_distributed_runner(std::move(exchange), options.threads);
 }
 
+std::vector<PipelineFigures> Backend::pipelines(Runner& runner) const {
+    std::vector<PipelineFigures> all;
+    if (!device || !device->tells_statistics()) return all;
+    for (const auto& [stage, statistics] : dynamic_cast<DeviceRunner&>(runner).pipeline_statistics()) {
+        all.push_back({stage, {}});
+        for (const host::PipelineStatistic& one : statistics) all.back().figures.emplace_back(one.name, one.value);
+    }
+    return all;
+}
+
 double Backend::copy_speed() const {
     return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
 }
@@ -86,8 +96,11 @@ Backend choose_machine(const MachineOptions& options, Choice choice, const std::
     Backend machine{options, nullptr, ""};
     const bool shows = !window_extensions.empty();
     const auto open = [&] {
-        return host::Device::open(
-            {.which = options.device, .validation = options.validate, .window_extensions = window_extensions, .on_message = {}});
+        return host::Device::open({.which = options.device,
+                                   .validation = options.validate,
+                                   .statistics = options.pipelines,
+                                   .window_extensions = window_extensions,
+                                   .on_message = {}});
     };
     if (options.backend == "cpu") {
         if (!options.device.empty())

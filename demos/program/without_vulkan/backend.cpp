@@ -22,6 +22,10 @@ std::unique_ptr<Runner> Backend::make_runner(std::shared_ptr<Exchange> exchange)
     return make_distributed_runner(std::move(exchange), options.threads);
 }
 
+std::vector<PipelineFigures> Backend::pipelines(Runner&) const {
+    return {};
+}
+
 double Backend::copy_speed() const {
     return host::processor_copy_speed(options.threads);
 }

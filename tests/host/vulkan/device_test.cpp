@@ -169,6 +169,44 @@ TEST_CASE("of overlapping pieces of an upload the last one counts, with and with
         REQUIRE(static_cast<int>(got[i]) == (i >= 4 && i < 12 ? 3 : i >= 8 && i < 24 ? 2 : 1));
 }
 
+TEST_CASE("a transfer is used again for more and for less, also after a range that it refused") {
+    const bool staged = GENERATE(false, true);
+    const Watched device(staged);
+    Transfer transfer(device.get());
+    const std::size_t most = (std::size_t{16} << 20) + 4096;  // more than a submission stages
+    Buffer buffer(device.get(), "bytes", most);
+    for (const std::size_t bytes : {std::size_t{8}, std::size_t{100000}, most, std::size_t{12}}) {
+        std::vector<std::byte> sent(bytes), got(bytes);
+        for (std::size_t i = 0; i < bytes; ++i) sent[i] = static_cast<std::byte>(i * 7 + bytes);
+        transfer.upload(std::vector<Upload>{{sent, &buffer, most - bytes}});
+        REQUIRE_THROWS_AS(transfer.upload(std::vector<Upload>{{sent, &buffer, most - bytes + 1}}), std::out_of_range);
+        transfer.download(std::vector<Download>{{got, &buffer, most - bytes}});
+        REQUIRE(got == sent);
+    }
+}
+
+TEST_CASE("a command buffer records again what it shall do, with timestamps") {
+    const Watched device;
+    Buffer a(device.get(), "a", 64), b(device.get(), "b", 64);
+    CommandBuffer commands(device.get(), 2);
+    for (const std::uint32_t word : {0x01010101u, 0x02020202u}) {
+        if (word != 0x01010101u) commands.begin_again();
+        commands.timestamp();
+        commands.fill(a, word, 32, 16);
+        commands.barrier();
+        commands.copy(a, b, 64);
+        commands.timestamp();
+        commands.end();
+        device.get()->submit_and_wait({commands.handle()});
+        REQUIRE(commands.timestamp_seconds().size() <= 1);
+        std::vector<std::byte> got(64);
+        b.read(got.data(), got.size());
+        for (std::size_t i = 0; i < got.size(); ++i)
+            REQUIRE(static_cast<std::uint32_t>(got[i]) == (i >= 16 && i < 48 ? word & 0xFF : 0));
+    }
+    REQUIRE_THROWS_AS(commands.fill(a, 0, 32, 36), std::out_of_range);
+}
+
 TEST_CASE("a buffer larger than a binding is refused by name where it is to be bound, and found by its address") {
     DeviceOptions options;
     options.largest_binding = 1000;
