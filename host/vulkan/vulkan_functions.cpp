@@ -55,7 +55,8 @@ const char* VulkanFunctions::load_device(VkDevice device) {
     SCREE_LOAD(name)            \
     if (!name) missing = #name;
     SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_LOAD_NEEDED)
-    SCREE_VULKAN_STATISTICS_FUNCTIONS(SCREE_LOAD)
+    SCREE_LOAD(vkGetPipelineExecutablePropertiesKHR)
+    SCREE_LOAD(vkGetPipelineExecutableStatisticsKHR)
     SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_LOAD)
 #undef SCREE_LOAD_NEEDED
 #undef SCREE_LOAD

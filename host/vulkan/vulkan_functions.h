@@ -48,10 +48,6 @@ namespace scree::host {
 #define SCREE_VULKAN_DEBUG_FUNCTIONS(X) \
     X(vkCreateDebugUtilsMessengerEXT) X(vkDestroyDebugUtilsMessengerEXT) X(vkSetDebugUtilsObjectNameEXT)
 
-// VK_KHR_pipeline_executable_properties; null unless the device was opened to tell statistics of pipelines.
-#define SCREE_VULKAN_STATISTICS_FUNCTIONS(X) \
-    X(vkGetPipelineExecutablePropertiesKHR) X(vkGetPipelineExecutableStatisticsKHR)
-
 // VK_KHR_surface and VK_KHR_swapchain; null unless the device was opened for a window.
 #define SCREE_VULKAN_SURFACE_FUNCTIONS(X) \
     X(vkDestroySurfaceKHR) X(vkGetPhysicalDeviceSurfaceSupportKHR) X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
@@ -67,7 +63,6 @@ struct VulkanFunctions {
     SCREE_VULKAN_INSTANCE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEBUG_FUNCTIONS(SCREE_VULKAN_POINTER)
-    SCREE_VULKAN_STATISTICS_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_SURFACE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_VULKAN_POINTER)
 #undef SCREE_VULKAN_POINTER
@@ -77,6 +72,10 @@ struct VulkanFunctions {
     // Load the instance and device functions. Return the name of a missing function, or null.
     const char* load_instance(VkInstance instance);
     const char* load_device(VkDevice device);
+
+    // VK_KHR_pipeline_executable_properties; null unless the device was opened to tell statistics of pipelines.
+    PFN_vkGetPipelineExecutablePropertiesKHR vkGetPipelineExecutablePropertiesKHR = nullptr;
+    PFN_vkGetPipelineExecutableStatisticsKHR vkGetPipelineExecutableStatisticsKHR = nullptr;
 };
 
 }  // namespace scree::host
