@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "compute/cpu/denormal_lockstep.h"
 #include "compute/cpu/stage_record.h"
 #include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/compare_device.h"
+#include "demos/program/compare_ends.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/progress.h"
 #include "demos/program/report.h"
+#include "demos/scenes/demos.h"
 #include "host/files/file.h"
 
 namespace scree::demos {
@@ -29,6 +32,7 @@ struct CompareOptions {
     std::optional<ResumedRun> resumed;
     bool flush_denormals = false;
     std::string keep, against;  // files of what stages wrote; may be empty
+    bool ends = false;          // whole runs of one scene or of all
     bool quiet = false;
 };
 
@@ -103,6 +107,44 @@ int compare(const CompareOptions& options) {
     return promise_missed;
 }
 
+// Whole runs: a line for each, and where one differs how to find the stage.
+int compare_whole(const CompareOptions& options) {
+    MachineOptions other = options.machine;
+    other.threads = 0;  // those of the processor beside it
+    const Backend device = choose_machine(other, Choice::a_device);
+    const bool all = options.scene.name == "all";
+    std::size_t equal = 0, compared = 0;
+    std::string name_of_device;
+    for (const std::string& name : all ? all_scenes() : std::vector{options.scene.name}) {
+        SceneOptions scene = options.scene;
+        scene.name = name;
+        if (const Demo* demo = find_demo(name); all && demo && !demo->takes_bodies) scene.bodies = 0;
+        const ComparedEnds ends = compare_ends(scene, device, options.machine.threads, options.quiet);
+        if (is_interrupted()) {
+            say("scree: interrupted\n");
+            return interrupted;
+        }
+        ++compared;
+        name_of_device = ends.device;
+        if (ends.equal()) ++equal;
+        if (ends.equal())
+            fmt::print("{}: equal after {} steps of {} bodies; state hash {}\n", ends.scene, ends.steps, ends.bodies,
+                       hash_text(ends.hash));
+        else
+            fmt::print(
+                "{}: equal after {} steps, not after {}: {} on the processor, {} on {}. The stage: scree compare {} --steps {}\n",
+                ends.scene, ends.equal_until, ends.steps, hash_text(ends.hash), hash_text(ends.hash_of_device), ends.device,
+                ends.scene, ends.steps);
+        std::fflush(stdout);
+    }
+    const std::string fault = device.arithmetic_fault();
+    if (compared > 1)
+        fmt::print("{} of {} scenes end with equal bits on the processor and on {}\n", equal, compared, name_of_device);
+    if (!fault.empty())
+        fmt::print("{} is not exact, so it is not equal, though steps may meet no difference: its {}\n", name_of_device, fault);
+    return equal == compared && fault.empty() ? done : promise_missed;
+}
+
 // The scene and settings of the run that wrote the checkpoint; steps are those after it.
 void take_resumed(const CLI::App& command, CompareOptions& options) {
     options.resumed = load_resumed(options.resume);
@@ -153,16 +195,28 @@ void add_compare(CLI::App& program, int& status) {
                                                "checkpoint, and as many steps or fewer.");
     for (CLI::Option* file : {keep, against}) file->excludes("--device")->excludes("--flush-denormals")->excludes(copies);
     keep->excludes(against);
+    command
+        ->add_flag("--ends", options->ends,
+                   "Compare states once a simulated second, not every stage of every step: faster by far, and with a scene's "
+                   "scripted events. The scene all stands for every demo and trial.")
+        ->excludes(resume)
+        ->excludes(copies)
+        ->excludes(keep)
+        ->excludes(against)
+        ->excludes("--flush-denormals");
     command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
         "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a\n"
-        "scene (an impulse, a change of settings) are left out. Exit status 1 if anything differs.");
+        "scene (an impulse, a change of settings) are left out. Exit status 1 if anything differs.\n"
+        "Whether a GPU gives the bits of the processor in every demo, over ten seconds each:\n"
+        "  scree compare all --ends --seconds 10 -q");
     command->callback([command, options, &status] {
         if (!options->resume.empty()) take_resumed(*command, *options);
         if (options->scene.name.empty())
             throw UsageError("compare: name a demo (scree list) or a scene file, or give a checkpoint with --resume");
-        status = compare(*options);
+        if (options->scene.name == "all" && !options->ends) throw UsageError("compare: all scenes are compared with --ends");
+        status = options->ends ? compare_whole(*options) : compare(*options);
     });
 }
 

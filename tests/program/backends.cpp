@@ -68,6 +68,27 @@ TEST_CASE("program: compare --flush-denormals needs no device, and tells both mo
     REQUIRE(says(refused.errors, "--flush-denormals"));
 }
 
+TEST_CASE("program: compare steps whole runs on both, with their scripts, and says after which the states are equal",
+          "[program]") {
+    const Place place;
+    const Outcome both = run_scree("compare glass --ends --steps 70 --quiet");
+    INFO(both.output << both.errors);
+    REQUIRE(both.status == 0);
+    const std::string report = (place / "report.json").string();
+    REQUIRE(run_scree("run glass --backend cpu --steps 70 --quiet --report '" + report + "'").status == 0);
+    const std::string hash = nlohmann::json::parse(place.read("report.json")).at("state_hash");
+    CHECK(says(both.output, "glass: equal after 70 steps of"));
+    CHECK(says(both.output, hash));
+    const Outcome all = run_scree("compare all --ends --bodies 60 --steps 2 --quiet");
+    INFO(all.output << all.errors);
+    CHECK(all.status == 0);
+    for (const char* scene : {"cars: equal after 2 steps", "pyramid100: equal after 2 steps", "scenes end with equal bits"})
+        CHECK(says(all.output, scene));
+    for (const char* wrong :
+         {"compare all --steps 2", "compare glass --ends --copies 2", "compare glass --ends --flush-denormals"})
+        CHECK(run_scree(wrong).status == 2);
+}
+
 TEST_CASE("program: compare --keep and --against tell without a device whether two machines agree", "[program]") {
     const Place place;
     const std::string start = "'" + (place / "before").string() + "'", record = "'" + (place / "right").string() + "'";

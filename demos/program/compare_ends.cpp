@@ -1,0 +1,67 @@
+// Comparison of whole runs on the CPU and on a Vulkan device.
+#include "demos/program/compare_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <memory>
+
+#include "compute/cpu/reference_runner.h"
+#include "compute/world.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/program/progress.h"
+#include "demos/scenes/demos.h"
+
+namespace scree::demos {
+
+namespace {
+
+// The state hash after so many steps more.
+std::uint64_t advanced(World& world, const Script& before_step, int steps) {
+    for (int i = 0; before_step && i < steps; ++i) {
+        before_step(world);
+        world.step();
+    }
+    if (!before_step) world.step(steps);
+    return world.state_hash();
+}
+
+}  // namespace
+
+ComparedEnds compare_ends(const SceneOptions& scene, const Backend& device, int threads, bool quiet) {
+    return at_work([&] {
+        const LoadedScene subject = load_subject(scene);
+        const Settings settings = subject.settings(scene);
+        World here(subject.scene, settings, make_reference_runner(threads)), there(subject.scene, settings, device.make_runner());
+        for (World* world : {&here, &there}) limit_memory(*world, device);
+        const int steps = scene.step_count(1, settings.rate), second = static_cast<int>(std::lround(settings.rate));
+        ComparedEnds ends;
+        ends.scene = subject.name;
+        ends.device = there.runner().device();
+        ends.bodies = subject.scene.bodies.size();
+        Progress progress(ends.scene, steps, "steps", quiet);
+        for (int done = 0; done < steps && ends.equal() && !is_interrupted();) {
+            const int count = std::min(second, steps - done);
+            std::future<std::uint64_t> hash =
+                std::async(std::launch::async, [&] { return advanced(here, subject.before_step, count); });
+            ends.hash_of_device = advanced(there, subject.before_step, count);
+            ends.hash = hash.get();
+            done += count;
+            ends.steps = static_cast<std::uint64_t>(done);
+            if (ends.equal()) ends.equal_until = ends.steps;
+            progress.done(done);
+        }
+        device.require_valid();
+        return ends;
+    });
+}
+
+std::vector<std::string> all_scenes() {
+    std::vector<std::string> names;
+    for (const Demo& demo : all_demos()) names.emplace_back(demo.name);
+    return names;
+}
+
+}  // namespace scree::demos
