@@ -95,8 +95,17 @@ physics::uint age_of(const State& state, std::size_t body) {
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
     const physics::BodyProperties& properties = state.properties[i];
-    const physics::BodyForces load = physics::scaled_forces(state.forces[i], physics::mass_scale(state.masses[i], properties));
-    state.velocities[i] = physics::integrate_velocity(state.velocities[i], sum.change, load, properties, state.fixed());
+    const float scale = physics::mass_scale(state.masses[i], properties);
+    physics::Velocity change = sum.change;
+    if (scale > 1) {
+        physics::ScaledMotion& motion = state.scaled_motions[i];
+        const physics::ScaledChange scaled =
+            physics::with_acceleration(change, state.velocities[i], motion, state.forces[i], scale, state.fixed());
+        change = scaled.change;
+        motion = scaled.motion;
+    }
+    const physics::BodyForces load = physics::scaled_forces(state.forces[i], scale);
+    state.velocities[i] = physics::integrate_velocity(state.velocities[i], change, load, properties, state.fixed());
     float& split_state = state.masses[i].split_state;
     if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
     split_state = physics::split_state_after(split_state, sum.weight, sum.normal_impulse);
@@ -105,8 +114,12 @@ void begin_substep_of(State& state, std::size_t i, bool first) {
 void scale_mass(State& state, std::size_t i) {
     physics::BodyMass& mass = state.masses[i];
     const physics::BodyProperties& properties = state.properties[i];
-    const float scale =
-        physics::next_mass_scale(mass, properties, state.velocities[i], felt_by(state, static_cast<std::uint32_t>(i)));
+    const physics::Parameters& felt = felt_by(state, static_cast<std::uint32_t>(i));
+    const float scale = physics::next_mass_scale(mass, properties, state.velocities[i], felt);
+    if (scale > 1) {
+        physics::ScaledMotion& motion = state.scaled_motions[i];
+        motion = physics::next_scaled_motion(motion, mass, properties, state.velocities[i], felt);
+    }
     if (scale != physics::mass_scale(mass, properties))
         mass = physics::mass_with_scale(mass, properties, state.poses[i].orientation, scale);
 }

@@ -137,7 +137,7 @@ void DeviceSide::fetch_contacts_of_sleepers() {
 
 void DeviceSide::fetch_for_new_rows() {
     if (!device_) return;
-    fetch({Table::properties, Table::strains, Table::slot_ends, Table::first_contacts});
+    fetch({Table::properties, Table::strains, Table::scaled_motions, Table::slot_ends, Table::first_contacts});
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     fetch({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
 }
@@ -149,14 +149,15 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
         std::sort(rows.begin(), rows.end());
         rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         TableRanges records;
-        for (const Table table : {Table::properties, Table::ids, Table::strains}) append_rows(records, table, rows);
+        for (const Table table : {Table::properties, Table::ids, Table::strains, Table::scaled_motions})
+            append_rows(records, table, rows);
         return store(records);
     }
     marks_.clear();
     adapt();
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     store({Table::properties, Table::ids, Table::poses, Table::velocities, Table::forces, Table::sleep_states, Table::masses,
-           Table::strains, Table::slot_ends, Table::first_contacts});
+           Table::scaled_motions, Table::strains, Table::slot_ends, Table::first_contacts});
     store({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
     device_->resume_step();
 }

@@ -67,7 +67,7 @@ TableRanges vehicle_ranges(const State& state) {
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains,
-                              Table::masses, Table::contacts, Table::impulses, Table::first_contacts})
+                              Table::masses, Table::scaled_motions, Table::contacts, Table::impulses, Table::first_contacts})
         ranges.push_back(live_range(state, table));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));

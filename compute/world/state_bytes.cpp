@@ -18,8 +18,8 @@ namespace scree {
 namespace {
 
 // Tables of rows, then of contacts. Statistics read the constraints of the last step.
-constexpr std::array row_tables{Table::properties,   Table::poses,   Table::velocities,
-                                Table::sleep_states, Table::strains, Table::masses};
+constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
+                                Table::strains,    Table::masses, Table::scaled_motions};
 constexpr std::array contact_tables{Table::contacts, Table::impulses, Table::constraints};
 
 std::size_t record_bytes(Table table) {

@@ -305,8 +305,15 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         change.linear = sum.linear;
         change.angular = sum.angular;
         BodyMass mass = gather<BodyMass>(tables.masses, bodies);
-        const BodyForces scaled = scaled_forces(load, mass_scale(mass, properties));
-        velocity = integrate_velocity(velocity, change, scaled, properties, p);
+        const Float scale = mass_scale(mass, properties);
+        const Bool is_scaled = scale > 1.0f;
+        if (!none(is_scaled)) {
+            const ScaledChange scaled =
+                with_acceleration(change, velocity, gather<ScaledMotion>(tables.scaled_motions, bodies), load, scale, p);
+            change = scaled.change;
+            scatter(tables.scaled_motions, bodies.only(living(first, last) && is_scaled), scaled.motion);
+        }
+        velocity = integrate_velocity(velocity, change, scaled_forces(load, scale), properties, p);
         Float& state = mass.split_state;
         if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
         state = split_state_after(state, sum.weight, sum.normal_impulse);

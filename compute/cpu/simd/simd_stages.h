@@ -25,6 +25,7 @@ struct WideTables {
     std::uint32_t* poses;
     std::uint32_t* velocities;
     std::uint32_t* masses;
+    std::uint32_t* scaled_motions;
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;

@@ -112,6 +112,12 @@ struct Velocity {
     float low_z;   // of the position, m
 };
 
+// Of a body with scaled mass: its velocity through a low-pass filter (mass_scaling.h).
+struct ScaledMotion {
+    vec3 linear;  // of the centre of mass, m/s
+    float waits;  // steps until its acceleration counts
+};
+
 // Inverse mass and world inverse inertia at the present orientation.
 struct BodyMass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
@@ -521,7 +527,7 @@ struct Parameters {  // uniform over a step
     uint contact_pairs_offset;
     uint contact_slots_offset;
     uint most_groups;  // workgroups of a dispatch along one axis
-    uint pad0;
+    uint scaled_motions_offset;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

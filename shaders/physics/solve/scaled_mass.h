@@ -9,6 +9,10 @@ LAWS_BEGIN
 CONSTANT float GREATEST_SCALE = 4096.0f;
 // A scale has five bits after its leading one, and changes by units of the last: 1.6 to 3.1%.
 CONSTANT uint SCALE_SHIFT = 18u;
+// The low-pass filter (mass_scaling.h): part of its lag that it makes up for in a substep, and the least acceleration that
+// counts, of that by weight and forces.
+CONSTANT float FOLLOWING = 0.01f;
+CONSTANT float LEAST_ACCELERATION = 0.02f;
 
 LAW float scale_from(uint code) {
     return uintBitsToFloat(code << SCALE_SHIFT);
@@ -49,6 +53,29 @@ LAW BodyForces scaled_forces(BodyForces load, float scale) {
     load.acceleration = load.acceleration * part;
     load.angular_acceleration = load.angular_acceleration * part;
     return load;
+}
+
+struct ScaledChange {
+    Velocity change;  // of the body's velocity in this substep
+    ScaledMotion motion;
+};
+// Adds to a scaled body's change of velocity what keeps its acceleration along that of its weight and forces. `now`: its velocity
+// before the substep.
+LAW ScaledChange with_acceleration(Velocity change, Velocity now, ScaledMotion motion, BodyForces load, float scale,
+                                   Parameters parameters) {
+    vec3 lag = now.linear - motion.linear, pull = load.acceleration;
+    float squared = dot3(pull, pull);
+    bool pulled = squared > 1.0e-12f;
+    float along = choose(pulled, dot3(pull, lag) * reciprocal(choose(pulled, squared, 1.0f)), 0.0f);
+    bool follows = scale > 1.0f && !(motion.waits > 0.0f);
+    bool counts = follows && abs(along) * (FOLLOWING * parameters.inverse_h) > LEAST_ACCELERATION;
+    float part = FOLLOWING * (1.0f - reciprocal(scale));
+    ScaledChange after;
+    after.change = change;
+    after.change.linear = choose(counts, change.linear + pull * (along * part), change.linear);
+    after.motion = motion;
+    after.motion.linear = choose(follows, flush_tiny(motion.linear + lag * FOLLOWING), now.linear);
+    return after;
 }
 
 LAWS_END

@@ -22,8 +22,16 @@ void begin_body(uint i, bool first) {
     Gathered sum = gather(i);
     BodyMass mass = READ(masses, i);
     float scale = mass_scale(mass, body);
-    Velocity velocity =
-        integrate_velocity(READ(velocities, i), sum.change, scaled_forces(READ(forces, i), scale), body, PARAMETERS);
+    Velocity velocity = READ(velocities, i);
+    BodyForces load = READ(forces, i);
+    ScaledMotion motion = ScaledMotion(vec3(0.0f), 0.0f);
+    if (scale > 1.0f) {
+        ScaledChange scaled = with_acceleration(sum.change, velocity, scaled_motion_of(i), load, scale, PARAMETERS);
+        sum.change = scaled.change;
+        motion = scaled.motion;
+        write_scaled_motion(i, motion);
+    }
+    velocity = integrate_velocity(velocity, sum.change, scaled_forces(load, scale), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
             velocity = pulled(velocity, READ(poses, i), whole_mass(mass), PARAMETERS.grips[k], PARAMETERS);
@@ -35,7 +43,9 @@ void begin_body(uint i, bool first) {
     mass.split_state = split_state_after(mass.split_state, sum.weight, sum.normal_impulse);
     masses.at[i].split_state = mass.split_state;
     if (!first) return;
-    float next = next_mass_scale(mass, body, velocity, felt_by(i));
+    Parameters felt = felt_by(i);
+    float next = next_mass_scale(mass, body, velocity, felt);
+    if (next > 1.0f) write_scaled_motion(i, next_scaled_motion(motion, mass, body, velocity, felt));
     if (next != scale) masses.at[i] = mass_with_scale(mass, body, READ(poses, i).orientation, next);
 }
 

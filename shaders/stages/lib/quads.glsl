@@ -1,4 +1,5 @@
-// The tables of quads (tables.h), constant scene data in one buffer. READ_QUADS(table, i) is the i-th record.
+// The tables of quads (tables.h) in one buffer: constant scene data, of which READ_QUADS(table, i) is the i-th record, and the
+// motions of bodies with scaled mass.
 #ifndef SCREE_STAGES_QUADS_GLSL
 #define SCREE_STAGES_QUADS_GLSL
 
@@ -30,6 +31,15 @@ SCREE_READER_PoseInBody(parts, SCREE_QUAD) SCREE_READER_Fracturing(fractures, SC
     // The pose of a part in its body.
     PoseInBody part_in(uint row) {
     return READ_QUADS(parts, row - PARAMETERS.first_part);
+}
+
+// Written and read again within a fused stage, so not through texels.
+ScaledMotion scaled_motion_of(uint row) {
+    vec4 motion = uintBitsToFloat(quads.at[PARAMETERS.scaled_motions_offset + row]);
+    return ScaledMotion(vec3(motion.x, motion.y, motion.z), motion.w);
+}
+void write_scaled_motion(uint row, ScaledMotion motion) {
+    quads.at[PARAMETERS.scaled_motions_offset + row] = floatBitsToUint(vec4(motion.linear, motion.waits));
 }
 
 #endif

@@ -69,6 +69,7 @@
     X(25, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
     X(25, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
     X(25, tyres, QuadsTable, Tyre, tyres)                                                                     \
+    X(25, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */  \
     X(25, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
     X(25, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
     X(25, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
