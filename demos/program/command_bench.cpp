@@ -147,8 +147,10 @@ void add_bench(CLI::App& program, int& status) {
     command->add_flag("--sleep", options->sleeping, "Let bodies at rest sleep. Default: all stay awake.");
     command->add_option("--csv", options->csv, "CSV file; - is the standard output.");
     add_options(*command, options->machine);
-    command->add_flag("--pipelines", options->machine.pipelines,
-                      "Show what the driver tells of each stage's pipeline: registers, spilled bytes, size of its code.");
+    command
+        ->add_flag("--pipelines", options->machine.pipelines,
+                   "Show what the driver tells of each stage's pipeline: registers, spilled bytes, size of its code.")
+        ->excludes("--pairs");
     command->add_flag("--quiet,-q", options->bench.quiet, "Print no progress.");
     command->footer(
         "Stage times are GPU timestamps, or wall-clock time with --backend cpu. Timestamps cost 10 us each on\n"

@@ -15,7 +15,7 @@ public:
     // Begins recording. `timestamps`: capacity for timestamp() calls.
     explicit CommandBuffer(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
     ~CommandBuffer();
-    void begin_again();  // drops the recording, whose submissions must have completed
+    void begin_again();  // drops the recording, whose submissions must have completed, and begins another
     CommandBuffer(CommandBuffer&& other) noexcept;
     CommandBuffer& operator=(CommandBuffer&& other) noexcept;
 

@@ -314,7 +314,8 @@ std::vector<PipelineStatistic> Pipeline::statistics() const {
         std::vector<VkPipelineExecutableStatisticKHR> statistics(count, empty);
         check(vk.vkGetPipelineExecutableStatisticsKHR(device.handle(), &executable, &count, statistics.data()),
               "statistics of a pipeline");
-        for (const VkPipelineExecutableStatisticKHR& one : statistics) all.push_back({one.name, value_of(one)});
+        const std::string which = executables > 1 ? std::to_string(i + 1) + ". " : "";  // such as one for each size of a subgroup
+        for (const VkPipelineExecutableStatisticKHR& one : statistics) all.push_back({which + one.name, value_of(one)});
     }
     return all;
 }

@@ -105,11 +105,12 @@ LAW float next_mass_scale(BodyMass mass, BodyProperties properties, Velocity vel
     uint decay = falls ? FALLING_DECAY : SCALE_DECAY;
     return scale_from(code > aim + decay ? code - decay : aim);
 }
-// The motion of a body with a scale, in this step; `mass` and `motion` as before it.
+// The motion of a body with a scale, in this step. `mass`: as of next_mass_scale(), with the scale before that.
 LAW ScaledMotion next_scaled_motion(ScaledMotion motion, BodyMass mass, BodyProperties properties, Velocity velocity,
                                     Parameters parameters) {
     float pressing = normal_impulses_of(mass.split_state) * properties.inverse_mass, before = mass_scale(mass, properties);
-    bool begins = before == 1.0f, is_loaded = pressing > (ADDED_LOAD * before) * pressing_of_scale(parameters);
+    float asked = smaller(pressing * reciprocal(pressing_of_scale(parameters)), GREATEST_SCALE);
+    bool begins = before == 1.0f, is_loaded = asked > ADDED_LOAD * before;
     if (begins) motion.linear = velocity.linear;
     motion.waits = begins || is_loaded ? WAITING_STEPS : larger(0.0f, motion.waits - 1.0f);
     return motion;
