@@ -218,7 +218,8 @@ void add_compare(CLI::App& program, int& status) {
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
         "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a\n"
-        "scene (an impulse, a change of settings) are left out, but for --ends. Exit status 1 if anything differs.\n"
+        "scene (an impulse, a change of settings) are left out, but for --ends. Exit status 1 if anything\n"
+        "differs.\n"
         "Whether a GPU gives the bits of the processor in every demo, over ten seconds each:\n"
         "  scree compare all --ends --seconds 10 -q");
     command->callback([command, options, &status] {

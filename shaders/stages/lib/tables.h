@@ -63,19 +63,19 @@
     X(24, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
     X(24, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
-#define SCREE_QUAD_TABLES(X)                                                                                  \
-    X(25, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
-    X(25, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
-    X(25, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
-    X(25, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
-    X(25, tyres, QuadsTable, Tyre, tyres)                                                                     \
-    X(25, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */  \
-    X(25, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
-    X(25, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
-    X(25, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
-    X(25, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
-    X(25, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
-    X(25, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
+#define SCREE_QUAD_TABLES(X)                                                                                   \
+    X(25, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */  \
+    X(25, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                   \
+    X(25, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                           \
+    X(25, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */               \
+    X(25, tyres, QuadsTable, Tyre, tyres)                                                                      \
+    X(25, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */   \
+    X(25, immersions, QuadsTable, Immersion, immersions)    /* by id, if there is air or water: fields.h */    \
+    X(25, surfaces, QuadsTable, Surface, surfaces)          /* of rows with one: material.h */                 \
+    X(25, way_points, QuadsTable, WayPoint, way_points)     /* of the vehicles' routes */                      \
+    X(25, filters, QuadsTable, uvec4, filters)              /* of all rows, if any body has one: filter.h */   \
+    X(25, exclusions, QuadsTable, uvec4, exclusions)        /* pairs of bodies that never collide: filter.h */ \
+    X(25, gravities, QuadsTable, uvec4, gravities)          /* of each copy, if they differ, m/s^2: copies.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
