@@ -70,26 +70,47 @@ void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
     set_manifold(state, index, touch, margin);
 }
 
-// Pairs of boxes, whose separating axes are found in SIMD lanes.
+// Pairs of boxes in SIMD lanes: the separating axes of all, then the manifolds of those that touch by faces, and by edges.
 void collide_boxes(State& state, const WideStages& wide, std::size_t first, std::size_t last) {
-    constexpr std::size_t at_once = 64;
+    constexpr std::size_t at_once = 128;
+    struct List {
+        std::array<std::uint32_t, at_once> pairs, places;
+        std::size_t count = 0;
+    };
     std::array<physics::BoxPair, at_once> found;
     WideTables tables = wide_tables(state, state.pairs_by_type);
     tables.out = reinterpret_cast<std::uint32_t*>(found.data());
+    const auto collide_listed = [&](const List& list) {
+        tables.items = list.pairs.data();
+        tables.places = list.places.data();
+        if (list.count > 0) wide.collide_boxes(tables, 0, list.count);
+        for (std::size_t k = 0; k < list.count; ++k) {
+            const std::uint32_t index = list.pairs[k];
+            if (const std::uint32_t a = state.pairs[index].a; a != state.body_of(a))
+                set_manifold(state, index, {state.pair_manifolds[index], state.point_counts[index]},
+                             found[list.places[k]].margin);
+        }
+    };
     for (; first < last; first += at_once) {
         tables.items = state.pairs_by_type.data() + first;
         const std::size_t count = std::min(at_once, last - first);
         wide.separate_boxes(tables, 0, count);
+        List by_face, by_edge;
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t index = tables.items[k];
+            const std::uint32_t index = tables.items[k];
+            const physics::BoxAxes& axes = found[k].axes;
             const physics::Pair& pair = state.pairs[index];
-            const float most = physics::greatest_margin(found[k].margin);
-            physics::ManifoldBuffer touch = physics::empty_manifold();
-            if (!physics::are_apart(found[k].axes, most))
-                touch = physics::manifold_of_boxes(state.properties[pair.a], state.poses[pair.a], state.properties[pair.b],
-                                                   state.poses[pair.b], found[k].axes, most);
-            set_manifold(state, index, touch, found[k].margin);
+            if (physics::are_apart(axes, physics::greatest_margin(found[k].margin))) {
+                set_manifold(state, index, physics::empty_manifold(), found[k].margin);
+                continue;
+            }
+            const auto reference = physics::reference_face(axes, state.properties[pair.a].size, state.properties[pair.b].size);
+            List& list = physics::is_edge_contact(axes, reference) ? by_edge : by_face;
+            list.pairs[list.count] = index;
+            list.places[list.count++] = static_cast<std::uint32_t>(k);
         }
+        collide_listed(by_face);
+        collide_listed(by_edge);
     }
 }
 

@@ -7,7 +7,7 @@
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
-#include "shaders/physics/collide/box_separation.h"
+#include "shaders/physics/collide/collide_box_box.h"
 #include "shaders/physics/solve/carried_contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
@@ -74,6 +74,22 @@ void separate_boxes(const WideTables& tables, std::size_t first, std::size_t las
             box_axes(ta, gather<Pose>(tables.poses, a), tb, gather<Pose>(tables.poses, b), greatest_margin(found.margin));
         const Uint places = Uint(lane_numbers()) + Uint(static_cast<std::uint32_t>(first));
         scatter(tables.out, Indices(places).only(living(first, last)), found);
+    }
+}
+
+void collide_boxes(const WideTables& tables, std::size_t first, std::size_t last) {
+    for (; first < last; first += lanes) {
+        const Indices pairs(listed(tables.items, first, last));
+        const BoxPair found = gather<BoxPair>(tables.out, Indices(listed(tables.places, first, last)));
+        const Pair pair = gather<Pair>(tables.pairs, pairs);
+        const Indices a(pair.a), b(pair.b);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, a), tb = gather<BodyProperties>(tables.properties, b);
+        const Pose pose_a = gather<Pose>(tables.poses, a), pose_b = gather<Pose>(tables.poses, b);
+        const ManifoldBuffer touch =
+            within_margin(manifold_of_boxes(ta, pose_a, tb, pose_b, found.axes, greatest_margin(found.margin)), found.margin);
+        scatter(tables.manifolds, pairs.only(living(first, last)), touch.manifold);
+        for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+            tables.point_counts[pairs.of[lane]] = touch.count.v[lane];
     }
 }
 
@@ -365,6 +381,7 @@ namespace scree::reference {
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::keep,
                                               SCREE_NAMED(SCREE_LANES)::separate_boxes,
+                                              SCREE_NAMED(SCREE_LANES)::collide_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,
                                               SCREE_NAMED(SCREE_LANES)::begin,
                                               SCREE_NAMED(SCREE_LANES)::solve,

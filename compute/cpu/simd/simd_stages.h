@@ -29,7 +29,8 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    std::uint32_t* out = nullptr;     // of separate_boxes: a BoxPair for each of `items`
+    std::uint32_t* out = nullptr;  // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`
+    const std::uint32_t* places = nullptr;
     std::uint32_t* groups = nullptr;  // constraints and impulses of the contacts in `items`, one per lane
     bool plain = false;               // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;             // `impulses` is read after every stage, not after the last alone
@@ -52,6 +53,8 @@ struct WideStages {
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs of boxes: their separating axes and margins (collide).
     void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
+    // Pairs of boxes that are not apart: their manifolds (collide), those of parts relative to the part.
+    void (*collide_boxes)(const WideTables&, std::size_t first, std::size_t last);
     // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts). With
     // `carries` of all contacts, and what persistent ones take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);

@@ -68,12 +68,14 @@ SCREE_INLINE bool none(Bool a) {
 #endif
 }
 
+struct Float;
 struct Uint {
     Words v;
     Uint() = default;
     SCREE_INLINE constexpr Uint(Words words) : v(words) {}
     SCREE_INLINE constexpr Uint(uint32_t x) : v(all<Words>(x)) {}
     SCREE_INLINE constexpr explicit Uint(int x) : Uint(static_cast<uint32_t>(x)) {}
+    SCREE_INLINE explicit Uint(Float x);  // from 0 to below 2^31
     friend SCREE_INLINE Uint operator+(Uint a, Uint b) { return a.v + b.v; }
     friend SCREE_INLINE Uint operator-(Uint a, Uint b) { return a.v - b.v; }
     friend SCREE_INLINE Uint operator&(Uint a, Uint b) { return a.v & b.v; }
@@ -109,6 +111,7 @@ struct Float {
     friend SCREE_INLINE Bool operator<=(Float a, Float b) { return a.v <= b.v; }
     friend SCREE_INLINE Bool operator>=(Float a, Float b) { return a.v >= b.v; }
 };
+SCREE_INLINE Uint::Uint(Float x) : v((Words) __builtin_convertvector(x.v, Masks)) {}
 SCREE_INLINE Uint floatBitsToUint(Float a) {
     return (Words)a.v;
 }
@@ -121,6 +124,9 @@ SCREE_INLINE Float abs(Float a) {
 
 SCREE_INLINE Uint choose(Bool condition, Uint a, Uint b) {
     return condition.v ? a.v : b.v;
+}
+SCREE_INLINE Uint choose(Bool condition, uint32_t a, uint32_t b) {
+    return choose(condition, Uint(a), Uint(b));
 }
 SCREE_INLINE Float choose(Bool condition, Float a, Float b) {
     return condition.v ? a.v : b.v;

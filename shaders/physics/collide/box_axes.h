@@ -8,20 +8,18 @@ LAWS_BEGIN
 
 // Rotates coordinates cyclically so that k is first.
 LAW vec3 turned(vec3 v, uint k) {
-    return vec3(k == 0u ? v.x : (k == 1u ? v.y : v.z), k == 0u ? v.y : (k == 1u ? v.z : v.x),
-                k == 0u ? v.z : (k == 1u ? v.x : v.y));
+    return choose(k == 0u, v, choose(k == 1u, vec3(v.y, v.z, v.x), vec3(v.z, v.x, v.y)));
 }
 // Undoes turned(v, k).
 LAW vec3 turned_back(vec3 v, uint k) {
-    return vec3(k == 0u ? v.x : (k == 1u ? v.z : v.y), k == 0u ? v.y : (k == 1u ? v.x : v.z),
-                k == 0u ? v.z : (k == 1u ? v.y : v.x));
+    return choose(k == 0u, v, choose(k == 1u, vec3(v.z, v.x, v.y), vec3(v.y, v.z, v.x)));
 }
 // Index of the largest coordinate; the first of equals.
 LAW uint largest_of(vec3 a) {
-    return a.x >= a.y && a.x >= a.z ? 0u : (a.y >= a.z ? 1u : 2u);
+    return choose(a.x >= a.y && a.x >= a.z, 0u, choose(a.y >= a.z, 1u, 2u));
 }
 LAW float coordinate(vec3 a, uint k) {
-    return k == 0u ? a.x : (k == 1u ? a.y : a.z);
+    return choose(k == 0u, a.x, choose(k == 1u, a.y, a.z));
 }
 
 // Slop by which an edge axis must beat a face, and within which box corners count as coplanar: 5 mm, or 1% of the

@@ -3,6 +3,7 @@
 #define SCREE_PHYSICS_CONTACT_MARGIN_H
 
 #include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/collide/manifold.h"
 
 LAWS_BEGIN
 
@@ -32,6 +33,13 @@ LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity v
 // For every normal.
 LAW float greatest_margin(Margin margin) {
     return margin.closing + larger(margin.least, length3(margin.fall));
+}
+
+// Drops a manifold found with the greatest margin if that of its normal is less: bodies side by side, which do not fall
+// upon each other.
+LAW ManifoldBuffer within_margin(ManifoldBuffer touch, Margin margin) {
+    float fall = abs(dot3(touch.manifold.normal, margin.fall));
+    return choose(deepest_of(touch) < margin.closing + larger(margin.least, fall), touch, empty_manifold());
 }
 
 LAWS_END

@@ -117,16 +117,16 @@ LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feat
     float above = larger(lowest, 0.0f);
     vec4 a = vec4(0.0f), b = a, c = a;
     float area_abc = 0.0f;
-    for (uint step = 0u; step < 4u; ++step) {
+    for (int step = 0; step < 4; ++step) {
         bool few = low <= 4u;
-        float best = step == 0u ? -1.0f : flat_within * flat_within;
-        bool found = few && step < low;
+        float best = step == 0 ? -1.0f : flat_within * flat_within;
+        bool found = few && uint(step) < low;
         vec4 next = a;
-        if (found) next = points[base + step];
+        if (found) next = points[base + uint(step)];
         for (uint k = 0u; k < low && !few; ++k) {
             vec4 p = points[base + k];
             float score = p.x <= lowest + flat_within ? p.y * p.y + p.z * p.z : -1.0f;
-            if (step > 0u) score = merit(step, a, b, c, area_abc, p) * nearness(p.x - above, flat_within);
+            if (step > 0) score = merit(step, a, b, c, area_abc, p) * nearness(p.x - above, flat_within);
             if (PATCH_BIAS * score > best) {
                 best = score;
                 next = p;
@@ -135,9 +135,9 @@ LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feat
         }
         if (!found) break;
         touch = with_point(touch, from_reference_plane(reference, next, 0.5f * next.x), next.x, uint(next.w), margin);
-        if (step == 0u) a = next;
-        if (step <= 1u) b = next;
-        if (step <= 2u) c = next;
+        if (step == 0) a = next;
+        if (step <= 1) b = next;
+        if (step <= 2) c = next;
         area_abc = area_right_of(a, b, c);
     }
     return touch;

@@ -216,14 +216,6 @@ LAW uint pair_type_of(uint shape_a, uint shape_b) {
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
-// Drops a manifold found with the greatest margin if that of its normal is less: bodies side by side, which do not fall
-// upon each other.
-LAW ManifoldBuffer within_margin(ManifoldBuffer touch, Margin margin) {
-    float fall = abs(dot3(touch.manifold.normal, margin.fall));
-    if (deepest_of(touch) < margin.closing + larger(margin.least, fall)) return touch;
-    return empty_manifold();
-}
-
 LAWS_END
 
 #endif

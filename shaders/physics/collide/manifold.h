@@ -26,19 +26,35 @@ LAW ManifoldBuffer empty_manifold() {
     return manifold_along(vec3(0.0f, 0.0f, 0.0f));
 }
 
+LAW ManifoldBuffer choose(bool condition, ManifoldBuffer a, ManifoldBuffer b) {
+    a.manifold.normal = choose(condition, a.manifold.normal, b.manifold.normal);
+    a.manifold.features = choose(condition, a.manifold.features, b.manifold.features);
+    a.manifold.points[0] = choose(condition, a.manifold.points[0], b.manifold.points[0]);
+    a.manifold.points[1] = choose(condition, a.manifold.points[1], b.manifold.points[1]);
+    a.manifold.points[2] = choose(condition, a.manifold.points[2], b.manifold.points[2]);
+    a.manifold.points[3] = choose(condition, a.manifold.points[3], b.manifold.points[3]);
+    a.count = choose(condition, a.count, b.count);
+    return a;
+}
+
 // Adds a point (from A's centre, world axes, m) if its separation (m) is below the margin (m). A fifth point is
-// ignored. The slots are named one by one, so that on a GPU they stay in registers.
-LAW ManifoldBuffer with_point(ManifoldBuffer touch, vec3 point, float separation, uint feature, float margin) {
-    if (separation < margin && touch.count < 4u) {
-        vec4 slot = vec4(point.x, point.y, point.z, separation);
-        if (touch.count == 0u) touch.manifold.points[0] = slot;
-        if (touch.count == 1u) touch.manifold.points[1] = slot;
-        if (touch.count == 2u) touch.manifold.points[2] = slot;
-        if (touch.count == 3u) touch.manifold.points[3] = slot;
-        touch.manifold.features = touch.manifold.features | ((feature & 255u) << (8u * touch.count));
-        touch.count = touch.count + 1u;
+// ignored. The slots are named one by one, so that on a GPU they stay in registers. `there`: whether there is a point to add.
+LAW ManifoldBuffer with_point(bool there, ManifoldBuffer touch, vec3 point, float separation, uint feature, float margin) {
+    bool added = there && separation < margin && touch.count < 4u;
+    if (!none(added)) {
+        vec4 slot = vec4(point, separation);
+        touch.manifold.points[0] = choose(added && touch.count == 0u, slot, touch.manifold.points[0]);
+        touch.manifold.points[1] = choose(added && touch.count == 1u, slot, touch.manifold.points[1]);
+        touch.manifold.points[2] = choose(added && touch.count == 2u, slot, touch.manifold.points[2]);
+        touch.manifold.points[3] = choose(added && touch.count == 3u, slot, touch.manifold.points[3]);
+        uint features = touch.manifold.features | ((feature & 255u) << (touch.count << 3));
+        touch.manifold.features = choose(added, features, touch.manifold.features);
+        touch.count = choose(added, touch.count + 1u, touch.count);
     }
     return touch;
+}
+LAW ManifoldBuffer with_point(ManifoldBuffer touch, vec3 point, float separation, uint feature, float margin) {
+    return with_point(true, touch, point, separation, feature, margin);
 }
 
 // Two spheres: radius_a (m) at the origin, radius_b (m) at `distance_between` (m) along the normal.
@@ -49,11 +65,10 @@ LAW ManifoldBuffer manifold_of_balls(vec3 normal, float distance_between, float 
 
 // Least separation of its points (m); 1e30 if it has none.
 LAW float deepest_of(ManifoldBuffer touch) {
-    float least = touch.count > 0u ? touch.manifold.points[0].w : 1.0e30f;
-    if (touch.count > 1u) least = smaller(least, touch.manifold.points[1].w);
-    if (touch.count > 2u) least = smaller(least, touch.manifold.points[2].w);
-    if (touch.count > 3u) least = smaller(least, touch.manifold.points[3].w);
-    return least;
+    float least = choose(touch.count > 0u, touch.manifold.points[0].w, 1.0e30f);
+    least = choose(touch.count > 1u, smaller(least, touch.manifold.points[1].w), least);
+    least = choose(touch.count > 2u, smaller(least, touch.manifold.points[2].w), least);
+    return choose(touch.count > 3u, smaller(least, touch.manifold.points[3].w), least);
 }
 
 // Plates that lie across each other, tilted a little both ways, overlap least along an axis of two edges, since the ends of each
@@ -68,16 +83,17 @@ CONSTANT float PATCH_SHORTFALL = 0.1f;  // of the slop, by which a patch that is
 LAW bool is_aligned(float cosine) {
     return abs(cosine) > ALIGNED;
 }
+LAW uint feature_at(ManifoldBuffer touch, int k) {
+    return (touch.manifold.features >> (8 * k)) & 255u;
+}
 // The patch's points along that unit axis from A to B, on which the separation of the bodies is known, m: none is deeper.
 LAW ManifoldBuffer along_axis(ManifoldBuffer touch, vec3 axis, float separation, float margin) {
     float slant = dot3(touch.manifold.normal, axis);
     float change = positive(separation - slant * deepest_of(touch));
     ManifoldBuffer along = manifold_along(axis);
-    for (uint k = 0u; k < 4u; ++k) {
+    for (int k = 0; k < 4; ++k) {
         vec4 point = touch.manifold.points[k];
-        uint feature = (touch.manifold.features >> (8u * k)) & 255u;
-        if (k < touch.count)
-            along = with_point(along, vec3(point.x, point.y, point.z), slant * point.w + change, feature, margin);
+        along = with_point(uint(k) < touch.count, along, xyz(point), slant * point.w + change, feature_at(touch, k), margin);
     }
     return along;
 }
@@ -86,35 +102,40 @@ LAW bool is_patch_as_deep(ManifoldBuffer along, float separation, float slop) {
 }
 // The points of the edges, then those of the patch, of one normal, up to four.
 LAW ManifoldBuffer with_patch(ManifoldBuffer edges, ManifoldBuffer along, float margin) {
-    for (uint k = 0u; k < 4u; ++k) {
+    for (int k = 0; k < 4; ++k) {
         vec4 point = along.manifold.points[k];
-        uint feature = (along.manifold.features >> (8u * k)) & 255u;
-        if (k < along.count) edges = with_point(edges, vec3(point.x, point.y, point.z), point.w, feature, margin);
+        edges = with_point(uint(k) < along.count, edges, xyz(point), point.w, feature_at(along, k), margin);
     }
     return edges;
 }
 
 LAW vec4 seen_from(vec4 point, vec3 d) {
-    return vec4(point.x - d.x, point.y - d.y, point.z - d.z, point.w);
+    return vec4(xyz(point) - d, point.w);
+}
+LAW ManifoldBuffer seen_from(bool moves, ManifoldBuffer touch, vec3 d) {
+    touch.manifold.points[0] =
+        choose(moves && touch.count > 0u, seen_from(touch.manifold.points[0], d), touch.manifold.points[0]);
+    touch.manifold.points[1] =
+        choose(moves && touch.count > 1u, seen_from(touch.manifold.points[1], d), touch.manifold.points[1]);
+    touch.manifold.points[2] =
+        choose(moves && touch.count > 2u, seen_from(touch.manifold.points[2], d), touch.manifold.points[2]);
+    touch.manifold.points[3] =
+        choose(moves && touch.count > 3u, seen_from(touch.manifold.points[3], d), touch.manifold.points[3]);
+    return touch;
 }
 
-// A manifold of (first, second) as that of (second, first); d = position of second - position of first (m).
+// A manifold of (first, second) as that of (second, first), where it is to be; d = position of second - position of first (m).
+LAW ManifoldBuffer flipped(bool flips, ManifoldBuffer touch, vec3 d) {
+    touch.manifold.normal = choose(flips, -touch.manifold.normal, touch.manifold.normal);
+    return seen_from(flips, touch, d);
+}
 LAW ManifoldBuffer flipped(ManifoldBuffer touch, vec3 d) {
-    touch.manifold.normal = -touch.manifold.normal;
-    if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], d);
-    if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], d);
-    if (touch.count > 2u) touch.manifold.points[2] = seen_from(touch.manifold.points[2], d);
-    if (touch.count > 3u) touch.manifold.points[3] = seen_from(touch.manifold.points[3], d);
-    return touch;
+    return flipped(true, touch, d);
 }
 
 // A part's manifold relative to its body's centre; offset: part's position - body's position (m).
 LAW ManifoldBuffer from_body(ManifoldBuffer touch, vec3 offset) {
-    if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], -offset);
-    if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], -offset);
-    if (touch.count > 2u) touch.manifold.points[2] = seen_from(touch.manifold.points[2], -offset);
-    if (touch.count > 3u) touch.manifold.points[3] = seen_from(touch.manifold.points[3], -offset);
-    return touch;
+    return seen_from(true, touch, -offset);
 }
 
 LAWS_END

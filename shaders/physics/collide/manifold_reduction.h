@@ -17,23 +17,23 @@ LAW float area_right_of(vec4 a, vec4 b, vec4 p) {
 
 // Score of p after a (distance), after a and b (triangle area), after a, b and c (outside distance as area; area_abc:
 // area_right_of(a, b, c)).
-LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
+LAW float merit(int step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
     float y = p.y - a.y;
     float z = p.z - a.z;
     float beyond_ab = area_right_of(a, b, p);
     float beyond_bc = area_right_of(b, c, p);
     float beyond_ca = area_right_of(c, a, p);
-    if (step == 1u) return y * y + z * z;
-    if (step == 2u) return abs(beyond_ab);
-    if (area_abc > 0.0f) return -smaller(beyond_ab, smaller(beyond_bc, beyond_ca));
-    return larger(beyond_ab, larger(beyond_bc, beyond_ca));
+    if (step == 1) return y * y + z * z;
+    if (step == 2) return abs(beyond_ab);
+    return choose(area_abc > 0.0f, -smaller(beyond_ab, smaller(beyond_bc, beyond_ca)),
+                  larger(beyond_ab, larger(beyond_bc, beyond_ca)));
 }
 
 // Weight of a point: 1 in contact (or if it is the lowest of those apart), a quarter at `slop` (m) above, less beyond.
 // Without it, or with ten times the slop, far corners in the air displaced one that carried, and boxes rocked for ever
 // between two choices.
 LAW float nearness(float height, float slop) {
-    float near = height > 0.0f ? slop * reciprocal(slop + height) : 1.0f;
+    float near = choose(height > 0.0f, slop * reciprocal(slop + height), 1.0f);
     return near * near;
 }
 
@@ -44,56 +44,57 @@ LAW float nearness(float height, float slop) {
 LAW uint best_four(ClipCorners corners, float ceiling, float flat_within) {
     uint present = 0u;
     uint count = 0u;
-    uint chosen = 0u;
     float lowest = ceiling;
-    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+    for (int k = 0; k < CLIP_CANDIDATES; ++k) {
         vec4 p = clip_corner(corners, k);
-        if (p.w >= 0.0f && p.x < ceiling) {
-            present = present | (1u << k);
-            count = count + 1u;
-            lowest = smaller(lowest, p.x);
-        }
+        bool there = p.w >= 0.0f && p.x < ceiling;
+        present = choose(there, present | (1u << k), present);
+        count = choose(there, count + 1u, count);
+        lowest = choose(there, smaller(lowest, p.x), lowest);
     }
-    if (count <= 4u) return present;
+    bool too_many = count > 4u;
+    if (none(too_many)) return present;
+    uint chosen = 0u;
     vec4 a = vec4(0.0f);
     float farthest = -1.0f;
-    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
-        if ((present & (1u << k)) != 0u) {
+    for (int k = 0; k < CLIP_CANDIDATES; ++k) {
+        bool there = too_many && (present & (1u << k)) != 0u;
+        if (!none(there)) {
             vec4 p = clip_corner(corners, k);
             float away = p.y * p.y + p.z * p.z;
-            if (p.x <= lowest + flat_within && REDUCE_BIAS * away > farthest) {
-                a = p;
-                farthest = away;
-                chosen = 1u << k;
-            }
+            bool better = there && p.x <= lowest + flat_within && REDUCE_BIAS * away > farthest;
+            a = choose(better, p, a);
+            farthest = choose(better, away, farthest);
+            chosen = choose(better, uint(1u << k), chosen);
         }
     }
     float reference = larger(lowest, 0.0f);
     vec4 b = a;
     vec4 c = a;
     float area_abc = 0.0f;
-    for (uint step = 1u; step < 4u; ++step) {
+    bool goes_on = too_many;
+    for (int step = 1; step < 4 && !none(goes_on); ++step) {
         float best = flat_within * flat_within;
         uint bit = 0u;
         vec4 next = a;
-        for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
-            if ((present & (1u << k)) != 0u) {
+        for (int k = 0; k < CLIP_CANDIDATES; ++k) {
+            bool there = goes_on && (present & (1u << k)) != 0u;
+            if (!none(there)) {
                 vec4 p = clip_corner(corners, k);
                 float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - reference, flat_within);
-                if (REDUCE_BIAS * score > best) {
-                    best = score;
-                    bit = 1u << k;
-                    next = p;
-                }
+                bool better = there && REDUCE_BIAS * score > best;
+                best = choose(better, score, best);
+                bit = choose(better, uint(1u << k), bit);
+                next = choose(better, p, next);
             }
         }
-        if (bit == 0u) return chosen;
+        goes_on = goes_on && bit != 0u;
         chosen = chosen | bit;
-        if (step == 1u) b = next;
-        if (step == 2u) c = next;
+        if (step == 1) b = next;
+        if (step == 2) c = next;
         area_abc = area_right_of(a, b, c);
     }
-    return chosen;
+    return choose(too_many, chosen, present);
 }
 
 LAWS_END

@@ -22,7 +22,7 @@ struct Overlay {
 };
 
 LAW float inverse_of_run(float run) {
-    return abs(run) > 1.0e-12f ? reciprocal(run) : 0.0f;
+    return choose(abs(run) > 1.0e-12f, reciprocal(run), 0.0f);
 }
 LAW Overlay overlay_of(vec3 centre, vec3 e, vec3 f, float half_y, float half_z, float slack) {
     Overlay overlay;
@@ -44,51 +44,62 @@ LAW Overlay overlay_of(vec3 centre, vec3 e, vec3 f, float half_y, float half_z, 
 // The part of a run from `from` (m) that lies within +-extent: x, y: parameters of entry and exit (y < x: none), z, w:
 // 0 or 1, whether it crosses the border there.
 LAW vec4 within(vec4 part, float from, float inverse, float extent) {
-    if (inverse == 0.0f) return abs(from) > extent ? vec4(0.0f, -1.0f, 0.0f, 0.0f) : part;
     float low = (-extent - from) * inverse;
     float high = (extent - from) * inverse;
     float enter = smaller(low, high);
     float leave = larger(low, high);
-    return vec4(larger(part.x, enter), smaller(part.y, leave), enter > part.x ? 1.0f : part.z, leave < part.y ? 1.0f : part.w);
+    vec4 crossed = vec4(larger(part.x, enter), smaller(part.y, leave), choose(enter > part.x, 1.0f, part.z),
+                        choose(leave < part.y, 1.0f, part.w));
+    vec4 beside = choose(abs(from) > extent, vec4(0.0f, -1.0f, 0.0f, 0.0f), part);
+    return choose(inverse == 0.0f, beside, crossed);
 }
 
 // The intersection has at most eight corners, all among CLIP_CANDIDATES: candidate 2k is where edge k of the
 // parallelogram enters the rectangle (or its corner k, if inside), 2k + 1 where the edge leaves, 8 to 11 are the
 // rectangle's corners within the parallelogram.
-CONSTANT uint CLIP_CANDIDATES = 12u;
+CONSTANT int CLIP_CANDIDATES = 12;
 
 // Candidate k: x: height; y, z: in the plane, m; w: feature, or -1 if there is none. Features 0 to 3 are the
 // parallelogram's corners, 4 to 7 the rectangle's, 8 to 15 crossings. (Edges are clipped as by Liang and Barsky, ACM
 // TOG 3(1), 1984.)
-LAW vec4 overlay_corner(Overlay overlay, uint k) {
-    if (k < 8u) {
-        uint edge = k >> 1;
-        bool along_f = (edge & 1u) != 0u;
-        float sign_along = edge < 2u ? 1.0f : -1.0f;
-        float sign_aside = edge == 0u || edge == 3u ? 1.0f : -1.0f;
-        vec3 along = (along_f ? overlay.f : overlay.e) * sign_along;
-        vec3 aside = (along_f ? overlay.e : overlay.f) * sign_aside;
-        float inverse_y = (along_f ? overlay.inverse_runs.z : overlay.inverse_runs.x) * sign_along;
-        float inverse_z = (along_f ? overlay.inverse_runs.w : overlay.inverse_runs.y) * sign_along;
+LAW vec4 overlay_corner(Overlay overlay, int k) {
+    if (k < 8) {
+        int edge = k >> 1;
+        float sign_along = edge < 2 ? 1.0f : -1.0f;
+        float sign_aside = edge == 0 || edge == 3 ? 1.0f : -1.0f;
+        vec3 along = overlay.e * sign_along;
+        vec3 aside = overlay.f * sign_aside;
+        float inverse_y = overlay.inverse_runs.x * sign_along;
+        float inverse_z = overlay.inverse_runs.y * sign_along;
+        if ((edge & 1) != 0) {
+            along = overlay.f * sign_along;
+            aside = overlay.e * sign_aside;
+            inverse_y = overlay.inverse_runs.z * sign_along;
+            inverse_z = overlay.inverse_runs.w * sign_along;
+        }
         vec3 start = overlay.centre - along - aside;
         vec4 part = vec4(0.0f, 1.0f, 0.0f, 0.0f);
         part = within(part, start.y, inverse_y, overlay.half_y + overlay.slack);
         part = within(part, start.z, inverse_z, overlay.half_z + overlay.slack);
-        bool leaves = (k & 1u) != 0u;
-        vec3 corner = start + along * (2.0f * (leaves ? part.y : part.x));
         // The end of an edge inside the rectangle is the start of the next edge.
-        bool absent = part.y < part.x || (leaves && part.w == 0.0f);
-        float feature = leaves || part.z != 0.0f ? float(8u + k) : float(edge);
-        return vec4(corner.x, corner.y, corner.z, absent ? -1.0f : feature);
+        float at = part.x, crosses = part.z, crossing = float(8 + k), feature = choose(crosses != 0.0f, crossing, float(edge));
+        bool absent = part.y < part.x;
+        if ((k & 1) != 0) {
+            at = part.y;
+            feature = crossing;
+            absent = absent || part.w == 0.0f;
+        }
+        vec3 corner = start + along * (2.0f * at);
+        return vec4(corner.x, corner.y, corner.z, choose(absent, -1.0f, feature));
     }
-    float y = (k & 1u) == 0u ? -overlay.half_y : overlay.half_y;
-    float z = (k & 2u) == 0u ? -overlay.half_z : overlay.half_z;
+    float y = (k & 1) == 0 ? -overlay.half_y : overlay.half_y;
+    float z = (k & 2) == 0 ? -overlay.half_z : overlay.half_z;
     float from_y = y - overlay.centre.y;
     float from_z = z - overlay.centre.z;
     float s = (from_y * overlay.f.z - from_z * overlay.f.y) * overlay.inverse_area;
     float t = (overlay.e.y * from_z - overlay.e.z * from_y) * overlay.inverse_area;
     float height = overlay.centre.x + s * overlay.e.x + t * overlay.f.x;
-    return vec4(height, y, z, abs(s) < 1.0f && abs(t) < 1.0f ? float(k - 4u) : -1.0f);
+    return vec4(height, y, z, choose(abs(s) < 1.0f && abs(t) < 1.0f, float(k - 4), -1.0f));
 }
 
 // The candidates of an overlay. A processor keeps them in an array; on a GPU recomputing one is cheaper than an array that
@@ -99,10 +110,10 @@ struct ClipCorners {
 };
 LAW ClipCorners clip_corners_of(Overlay overlay) {
     ClipCorners corners;
-    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) corners.at[k] = overlay_corner(overlay, k);
+    for (int k = 0; k < CLIP_CANDIDATES; ++k) corners.at[k] = overlay_corner(overlay, k);
     return corners;
 }
-LAW vec4 clip_corner(const ClipCorners& corners, uint k) {
+LAW vec4 clip_corner(const ClipCorners& corners, int k) {
     return corners.at[k];
 }
 #else
