@@ -252,11 +252,11 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     const bool sorted = wide || !state.presence.empty(), blocks = state.features().blocks;
-    const bool carries = wide && wide_tables(state, state.contacts_to_solve).carries;
+    const bool in_lanes = wide && wide_tables(state, state.contacts_to_solve).warm_starts;
     if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        if (carries && is_carried_in_lanes(state, i)) {
-            state.solver_classes[i] = class_of_persistent(state, i);
+        if (in_lanes && is_solved(state, i)) {
+            state.solver_classes[i] = class_in_lanes(state, i);
             return;
         }
         const physics::Contact& contact = state.contacts[i];
@@ -268,7 +268,6 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             state.solver_classes[i] =
                 idle ? not_solved : class_to_solve(state, a, b, contact, state.impulses[i].normal_sum > 0, follows || leads);
         if (follows) return;  // the first contact of its block prepares it
-        if (carries && !idle) return;
         physics::Constraint& c = state.constraints[i];
         begin_constraint(state, i);
         if (idle) {

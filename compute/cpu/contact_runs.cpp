@@ -22,6 +22,13 @@ bool is_of_block(std::uint8_t solver_class) {
     return solver_class % inner_classes == lane_classes;
 }
 
+std::size_t lane_class(bool round, bool bears, std::uint32_t points) {
+    return 4 * (2 * std::size_t{round} + !bears) + (4 - points);
+}
+bool are_round(const State& state, std::uint32_t a, std::uint32_t b) {
+    return physics::is_round(state.properties[a]) && physics::is_round(state.properties[b]);
+}
+
 std::uint8_t class_among(const State& state, std::uint32_t a, std::uint32_t b, std::size_t inner_class) {
     const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
     const bool at_border = is_ghost(a) || is_ghost(b);
@@ -51,21 +58,24 @@ void sort_by_copy(State& state) {
 
 }  // namespace
 
-bool is_carried_in_lanes(const State& state, std::size_t contact) {
-    return state.pairs[state.contact_pairs[contact]].pair_type == physics::PAIR_PERSISTENT &&
-           !physics::is_idle(state.contact_slots[2 * contact], state.contact_slots[2 * contact + 1]);
+bool is_solved(const State& state, std::size_t contact) {
+    return !physics::is_idle(state.contact_slots[2 * contact], state.contact_slots[2 * contact + 1]);
 }
 
 std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
                             bool of_block) {
-    const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
-    return class_among(state, a, b, of_block ? lane_classes : 4 * (2 * round + !bears) + (4 - contact.count));
+    return class_among(state, a, b,
+                       of_block ? lane_classes : lane_class(are_round(state, contact.a, contact.b), bears, contact.count));
 }
 
-std::uint8_t class_of_persistent(const State& state, std::size_t contact) {
-    const std::uint32_t index = state.contact_pairs[contact];
-    return class_among(state, state.body_of(state.pairs[index].a), state.body_of(state.pairs[index].b),
-                       4 - state.point_counts[index]);
+std::uint8_t class_in_lanes(const State& state, std::size_t contact) {
+    const std::uint32_t index = state.contact_pairs[contact], count = state.point_counts[index];
+    const physics::Pair& pair = state.pairs[index];
+    const bool persists = pair.pair_type == physics::PAIR_PERSISTENT;
+    // Persistent contacts bore an impulse, and their bodies are not both round (may_persist).
+    const bool bears = persists || (pair.previous != physics::NONE && state.impulses_before[pair.previous].normal_sum > 0);
+    return class_among(state, state.body_of(pair.a), state.body_of(pair.b),
+                       lane_class(!persists && are_round(state, pair.a, pair.b), bears, count));
 }
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {

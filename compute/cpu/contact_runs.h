@@ -12,14 +12,14 @@ namespace scree::reference {
 
 constexpr std::uint8_t not_solved = 0xFF;
 
-// Contacts that lanes carry forward as they prepare them (WideTables::carries).
-bool is_carried_in_lanes(const State& state, std::size_t contact);
+// Whether the contact has a movable body.
+bool is_solved(const State& state, std::size_t contact);
 
 // The class (State::solver_classes) of a contact of bodies a and b, by which contacts to solve are sorted.
 std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
                             bool of_block);
-// Of a persistent contact, which bore an impulse, and whose bodies are not both round (may_persist).
-std::uint8_t class_of_persistent(const State& state, std::size_t contact);
+// Of a contact that lanes warm-start. The impulse that it will bear is not known yet: that of the last step decides.
+std::uint8_t class_in_lanes(const State& state, std::size_t contact);
 
 // Sorts contacts_to_solve by class and finds its runs.
 void sort_contacts_to_solve(State& state, const Threads& threads);

@@ -60,9 +60,9 @@ void make_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
-    const bool carries = wide_stages(threads.lanes()) && wide_tables(state, state.contacts_to_solve).carries;
+    const bool in_lanes = wide_stages(threads.lanes()) && wide_tables(state, state.contacts_to_solve).warm_starts;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        if (carries && is_carried_in_lanes(state, i)) return;
+        if (in_lanes && is_solved(state, i)) return;
         const physics::PreparedContact prepared = warm_started_contact(state, i);
         state.contacts[i].load = prepared.contact.load;
         state.contacts[i].unrest = prepared.contact.unrest;

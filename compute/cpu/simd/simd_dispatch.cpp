@@ -53,7 +53,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const SceneFeatures has = state.features();
     const bool usual = !has.bounces && !has.tyres && !has.surfaces;
     tables.plain = usual && !has.rolls;
-    tables.carries = usual && !has.blocks && !state.is_watched;
+    tables.warm_starts = usual && !has.blocks && !state.is_watched;
     return tables;
 }
 

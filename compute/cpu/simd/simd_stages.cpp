@@ -8,7 +8,7 @@
 #include "compute/cpu/simd/simd_types.h"
 
 #include "shaders/physics/collide/collide_box_box.h"
-#include "shaders/physics/solve/carried_contact.h"
+#include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
@@ -106,9 +106,12 @@ SCREE_INLINE void set_in_contacts(const WideTables& tables, std::size_t offset, 
 // What a group of contacts has from the last step, and from the manifolds of this one.
 struct Inherited {
     Impulse impulse;
-    Float load;
+    Float load, unrest;
     Uint slot_a, slot_b;
 };
+constexpr std::size_t words_of_impulse = sizeof(Impulse) / sizeof(Words);
+constexpr std::uint32_t zero_impulse[words_of_impulse] = {};
+
 SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contacts, const BodyProperties& ta,
                                  const BodyProperties& tb, const Contact& contact) {
     Words pair_of, slot_a, slot_b;
@@ -119,30 +122,40 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     }
     const Indices pairs{Uint(pair_of)};
     const Pair pair = gather<Pair>(tables.pairs, pairs);
-    const Bool carried = pair.pair_type == Uint(PAIR_PERSISTENT);
-    constexpr std::size_t words = sizeof(Impulse) / sizeof(Words);
+    const Bool known = pair.previous != Uint(NONE), carried = is_carried_forward(pair.pair_type), matched = known && !carried;
     const std::uint32_t* places[SCREE_LANES];
     for (int lane = 0; lane < lanes; ++lane)
-        places[lane] = carried.v[lane] != 0 ? tables.impulses_before + words * pair.previous.v[lane]
-                                            : tables.impulses + words * contacts.of[lane];
-    Inherited found{gather_at<Impulse>(places), contact.load, slot_a, slot_b};
-    if (none(carried)) return found;
-    found.load = choose(carried, load_since(contact, found.impulse, ta, found.slot_a, tb, found.slot_b), contact.load);
-    Impulse now = carried_impulse(contact, found.impulse, gather<Manifold>(tables.manifolds, pairs));
-    now.normal_sum = normal_impulse(now);
-    found.impulse = none(!carried) ? now : choose_record(carried, now, found.impulse);
+        places[lane] = known.v[lane] != 0 ? tables.impulses_before + words_of_impulse * pair.previous.v[lane] : zero_impulse;
+    const Impulse was = gather_at<Impulse>(places);
+    Inherited found{no_impulse(contact.center_offset), contact.load, contact.unrest, slot_a, slot_b};
+    found.impulse.separation = separations_of(contact);
+    if (!none(carried)) {
+        const Impulse now = carried_impulse(contact, was, gather<Manifold>(tables.manifolds, pairs));
+        found.impulse = none(!carried) ? now : choose_record(carried, now, found.impulse);
+        found.load = choose(carried, load_since(contact, was, ta, found.slot_a, tb, found.slot_b), contact.load);
+    }
+    if (!none(matched)) {
+        const Contact before = gather<Contact>(tables.contacts_before, Indices(choose(matched, pair.previous, Uint(0u))));
+        Impulse now = warm_start_from(contact, was, matches_of(contact, before, match_radius(contact, before, ta, tb)));
+        now.separation = found.impulse.separation;
+        found.impulse = choose_record(matched, now, found.impulse);
+        found.load = choose(matched, load_since(before, was, ta, found.slot_a, tb, found.slot_b), found.load);
+        found.unrest = choose(matched, before.unrest, found.unrest);
+    }
+    found.impulse.normal_sum = normal_impulse(found.impulse);
     return found;
 }
 
-void prepare_and_carry(const WideTables& tables, std::size_t first, std::size_t last) {
+void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Indices contacts(listed(tables.items, first, last));
-        const Contact contact = gather<Contact>(tables.contacts, contacts);
+        Contact contact = gather<Contact>(tables.contacts, contacts);
         const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
         const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
         const Inherited from = inherited(tables, contacts, ta, tb, contact);
+        contact.unrest = from.unrest;
         Constraint c =
             constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
         const Indices a(c.a), b(c.b);
@@ -165,7 +178,7 @@ void prepare_and_carry(const WideTables& tables, std::size_t first, std::size_t 
 }
 
 void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
-    if (tables.carries) return prepare_and_carry(tables, first, last);
+    if (tables.warm_starts) return warm_start_and_prepare(tables, first, last);
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {

@@ -34,7 +34,7 @@ struct WideTables {
     std::uint32_t* groups = nullptr;  // constraints and impulses of the contacts in `items`, one per lane
     bool plain = false;               // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;             // `impulses` is read after every stage, not after the last alone
-    bool carries = false;             // preparation carries impulses of persistent contacts forward, and is that of all contacts
+    bool warm_starts = false;         // preparation warm-starts contacts from the last step, and is that of all contacts
     float* impact_debts = nullptr;    // of each body, J (restitution.h)
     float* carried = nullptr;         // normal impulse of each contact in the step, N s; null if no body may break
     std::uint32_t steps = 0;          // Counts::steps in the first substep, for the hysteresis of mass splitting
@@ -56,7 +56,7 @@ struct WideStages {
     // Pairs of boxes that are not apart: their manifolds (collide), those of parts relative to the part.
     void (*collide_boxes)(const WideTables&, std::size_t first, std::size_t last);
     // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts). With
-    // `carries` of all contacts, and what persistent ones take from the last step (warm_start_contacts).
+    // `warm_starts` of all contacts, and what they take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);

@@ -159,6 +159,9 @@ struct vec4 {
 };
 struct uvec4 {
     Uint x, y, z, w;
+    SCREE_INLINE explicit uvec4(Uint a) : x(a), y(a), z(a), w(a) {}
+    SCREE_INLINE Uint& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
+    SCREE_INLINE Uint operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
 };
 SCREE_INLINE vec3 choose(Bool c, vec3 a, vec3 b) {
     return {choose(c, a.x, b.x), choose(c, a.y, b.y), choose(c, a.z, b.z)};

@@ -32,6 +32,10 @@ LAW vec4 separations_of(Manifold manifold) {
     return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
+// Whether the contact keeps its points and impulses: it persists, or both bodies are inactive.
+LAW bool is_carried_forward(uint pair_type) {
+    return pair_type == PAIR_PERSISTENT || pair_type == PAIR_INACTIVE;
+}
 // A contact that persists keeps its impulses.
 LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);

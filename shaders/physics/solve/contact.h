@@ -7,8 +7,11 @@
 
 LAWS_BEGIN
 
-LAW uint feature_of(uint features, uint point) {
-    return (features >> (8u * point)) & 0xFFu;
+LAW uint feature_of(uint features, int point) {
+    return (features >> (8 * point)) & 0xFFu;
+}
+LAW vec4 separations_of(Contact contact) {
+    return vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
 }
 
 // How far a point may move on a body between steps and still match, m. Patches of three points or more keep nearly all:
@@ -18,9 +21,12 @@ CONSTANT float MATCHED = 0.1f;        // of the smaller min_half_width
 CONSTANT float FACE_MATCHED = 0.5f;   // of the smaller width along the contact plane, between boxes and planes
 CONSTANT float PATCH_MATCHED = 1.5f;  // of the same if one has many corners
 LAW float match_radius(Contact now, Contact before, BodyProperties a, BodyProperties b) {
-    if (now.count < 3u || before.count < 3u) return MATCHED * smaller(min_half_width(a), min_half_width(b));
+    bool few = now.count < 3u || before.count < 3u;
+    float narrow = MATCHED * smaller(min_half_width(a), min_half_width(b));
+    if (none(!few)) return narrow;
     float width = smaller(patch_width(a, now.orientation_a, now.normal), patch_width(b, now.orientation_b, now.normal));
-    return (is_general_convex(a.shape) || is_general_convex(b.shape) ? PATCH_MATCHED : FACE_MATCHED) * width;
+    bool has_corners = is_general_convex(a.shape) || is_general_convex(b.shape);
+    return choose(few, narrow, choose(has_corners, PATCH_MATCHED, FACE_MATCHED) * width);
 }
 
 // For each new point the index of the matching old point, or NONE: the nearest unmatched one within `radius`, measured
@@ -28,27 +34,31 @@ LAW float match_radius(Contact now, Contact before, BodyProperties a, BodyProper
 // point at any distance: a wheel's contact travels round the wheel.
 LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     uvec4 matches = uvec4(NONE);
-    if (now.count == 1u && before.count == 1u) {
-        matches.x = 0u;
-        return matches;
-    }
+    bool single = now.count == 1u && before.count == 1u;
+    vec4 old[4];
+    for (int j = 0; j < 4; ++j) old[j] = vec4(rotate_back(before.orientation_a, xyz(before.points[j])), 0.0f);
     uint taken = 0u;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= now.count) break;
-        vec3 anchor = rotate_back(now.orientation_a, xyz(now.points[k]));
-        float nearest = radius * radius;
-        for (uint j = 0u; j < 4u; ++j) {
-            if (j >= before.count) break;
-            vec3 apart = anchor - rotate_back(before.orientation_a, xyz(before.points[j]));
-            float score = dot3(apart, apart);
-            if (feature_of(now.features, k) != feature_of(before.features, j)) score = score + 4.0e-6f * (radius * radius);
-            if (score < nearest && ((taken >> j) & 1u) == 0u) {
-                nearest = score;
-                matches[k] = j;
+    for (int k = 0; k < 4; ++k) {
+        bool there = !single && uint(k) < now.count;
+        if (!none(there)) {
+            vec3 anchor = rotate_back(now.orientation_a, xyz(now.points[k]));
+            float nearest = radius * radius;
+            uint match = NONE, bit = 0u;
+            for (int j = 0; j < 4; ++j) {
+                vec3 apart = anchor - xyz(old[j]);
+                float score = dot3(apart, apart);
+                bool renamed = feature_of(now.features, k) != feature_of(before.features, j);
+                score = choose(renamed, score + 4.0e-6f * (radius * radius), score);
+                bool closer = there && uint(j) < before.count && score < nearest && (taken & (1u << j)) == 0u;
+                nearest = choose(closer, score, nearest);
+                match = choose(closer, uint(j), match);
+                bit = choose(closer, uint(1u << j), bit);
             }
+            matches[k] = match;
+            taken = taken | bit;
         }
-        if (matches[k] != NONE) taken = taken | (1u << matches[k]);
     }
+    matches.x = choose(single, 0u, matches.x);
     return matches;
 }
 
@@ -57,29 +67,29 @@ LAW bool rebounds_across(Impulse was) {
     return was.impact_energy > 0.0f;
 }
 
+LAW float component(vec4 v, uint k) {
+    return choose(k == 0u, v.x, choose(k == 1u, v.y, choose(k == 2u, v.z, v.w)));
+}
 // Impulses of the matching points; friction only if some normal impulse is left, projected onto the new tangent plane.
 LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     Impulse impulse = no_impulse(now.center_offset);
-    for (uint k = 0u; k < 4u; ++k) {
-        if (matches[k] == NONE) continue;
-        impulse.normal[k] = was.normal[matches[k]];
-        impulse.solved_normal[k] = was.solved_normal[matches[k]];
-        impulse.impact[k] = was.impact[matches[k]];
+    for (int k = 0; k < 4; ++k) {
+        bool matched = matches[k] != NONE;
+        impulse.normal[k] = choose(matched, component(was.normal, matches[k]), 0.0f);
+        impulse.solved_normal[k] = choose(matched, component(was.solved_normal, matches[k]), 0.0f);
+        impulse.impact[k] = choose(matched, component(was.impact, matches[k]), 0.0f);
     }
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;
     impulse.flight_energy = was.flight_energy;
-    float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
-    if (total > 0.0f) {
-        impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
-        // A single point has no torsional friction that would reduce an inherited twist.
-        if (now.count > 1u) {
-            impulse.twist = was.twist;
-            impulse.turn = was.turn;
-        }
-        impulse.stretch = was.stretch - now.normal * dot3(was.stretch, now.normal);
-        impulse.rolling = was.rolling;
-    }
+    bool bears = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f;
+    // A single point has no torsional friction that would reduce an inherited twist.
+    bool twists = bears && now.count > 1u;
+    impulse.friction = choose(bears, was.friction - now.normal * dot3(was.friction, now.normal), impulse.friction);
+    impulse.stretch = choose(bears, was.stretch - now.normal * dot3(was.stretch, now.normal), impulse.stretch);
+    impulse.rolling = choose(bears, was.rolling, impulse.rolling);
+    impulse.twist = choose(twists, was.twist, 0.0f);
+    impulse.turn = choose(twists, was.turn, 0.0f);
     return impulse;
 }
 
@@ -93,7 +103,7 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.unrest = 0.0f;
     contact.center_offset = b.position - a.position;
     contact.load = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];
+    for (int k = 0; k < 4; ++k) contact.points[k] = manifold.points[k];
     contact.orientation_a = a.orientation;
     contact.orientation_b = b.orientation;
     return contact;

@@ -23,10 +23,6 @@ struct PreparedContact {
 LAW bool is_idle(uint slot_a, uint slot_b) {
     return slot_a == NONE && slot_b == NONE;
 }
-// Whether the contact keeps its points and impulses: it persists, or both bodies are inactive.
-LAW bool is_carried_forward(uint pair_type) {
-    return pair_type == PAIR_PERSISTENT || pair_type == PAIR_INACTIVE;
-}
 
 // A persistent contact: geometry and impulses of the last step, separations of this one.
 LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
@@ -40,7 +36,7 @@ LAW PreparedContact without_impulses(Contact contact) {
     PreparedContact prepared;
     prepared.contact = contact;
     prepared.impulse = no_impulse(contact.center_offset);
-    prepared.impulse.separation = vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
+    prepared.impulse.separation = separations_of(contact);
     return prepared;
 }
 
