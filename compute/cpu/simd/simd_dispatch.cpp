@@ -40,6 +40,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.point_counts = words(state.point_counts);
     tables.contacts = words(state.contacts);
     tables.constraints = words(state.constraints);
+    tables.bounds = words(state.bounds);
     tables.poses = words(state.poses);
     tables.velocities = words(state.velocities);
     tables.masses = words(state.masses);

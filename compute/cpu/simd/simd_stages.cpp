@@ -8,6 +8,7 @@
 #include "compute/cpu/simd/simd_types.h"
 
 #include "shaders/physics/collide/collide_box_box.h"
+#include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
@@ -22,6 +23,27 @@
 LAWS_BEGIN
 
 namespace {
+
+SCREE_INLINE void set_marks(const WideTables& tables, std::size_t first, std::size_t last, Uint marks) {
+    for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+        tables.marks[first + lane] = static_cast<std::uint8_t>(marks.v[lane]);
+}
+
+void bound(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const Pose pose = gather<Pose>(tables.poses, bodies);
+        const Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        const BodyForces load = gather<BodyForces>(tables.forces, bodies);
+        scatter(tables.bounds, live, bounds_of(properties, 0.0f, pose, velocity, load, p));
+        scatter(tables.masses, live,
+                mass_with_scale_of(gather<BodyMass>(tables.masses, bodies), properties, pose.orientation));
+        set_marks(tables, first, last, choose(will_sweep(properties, velocity, p), 1u, 0u));
+    }
+}
 
 // A group of pairs whose contacts of the last step may persist.
 struct PairGroup {
@@ -384,6 +406,29 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
     }
 }
 
+void finish(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        velocity.linear = flush_tiny(velocity.linear + sum.linear);
+        velocity.angular = flush_tiny(velocity.angular + sum.angular);
+        const Bool sound = is_sound(velocity), limited = is_spin_limited(velocity, p);
+        velocity = held_velocity(velocity, p);
+        scatter(tables.velocities, live, velocity);
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const Bool fast =
+            was_fast(properties, gather<Bounds>(tables.bounds, bodies).sweep, gather<Pose>(tables.poses, bodies));
+        set_marks(tables, first, last,
+                  choose(sum.weight != 0.0f, Uint(reference::carries_contacts), Uint(0u)) |
+                      choose(sound, Uint(0u), Uint(reference::is_unsound)) |
+                      choose(limited, Uint(reference::is_spin_limited), Uint(0u)) |
+                      choose(fast, Uint(reference::was_fast), Uint(0u)));
+    }
+}
+
 }  // namespace
 
 LAWS_END
@@ -392,6 +437,7 @@ namespace scree::reference {
 
 #define SCREE_STAGES(count) SCREE_JOINED(wide_stages_, count)
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
+                                              SCREE_NAMED(SCREE_LANES)::bound,
                                               SCREE_NAMED(SCREE_LANES)::keep,
                                               SCREE_NAMED(SCREE_LANES)::separate_boxes,
                                               SCREE_NAMED(SCREE_LANES)::collide_boxes,
@@ -399,6 +445,7 @@ const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::begin,
                                               SCREE_NAMED(SCREE_LANES)::solve,
                                               SCREE_NAMED(SCREE_LANES)::move,
-                                              SCREE_NAMED(SCREE_LANES)::relax};
+                                              SCREE_NAMED(SCREE_LANES)::relax,
+                                              SCREE_NAMED(SCREE_LANES)::finish};
 
 }  // namespace scree::reference

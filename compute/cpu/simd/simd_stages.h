@@ -22,6 +22,7 @@ struct WideTables {
     std::uint32_t* point_counts;
     std::uint32_t* contacts;
     std::uint32_t* constraints;
+    std::uint32_t* bounds;
     std::uint32_t* poses;
     std::uint32_t* velocities;
     std::uint32_t* masses;
@@ -31,6 +32,7 @@ struct WideTables {
     std::uint32_t* slots;
     std::uint32_t* out = nullptr;  // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`
     const std::uint32_t* places = nullptr;
+    std::uint8_t* marks = nullptr;    // one for each of `items`, of bound and finish
     std::uint32_t* groups = nullptr;  // constraints and impulses of the contacts in `items`, one per lane
     bool plain = false;               // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;             // `impulses` is read after every stage, not after the last alone
@@ -48,6 +50,9 @@ struct WideTables {
 // passes of the step's substeps keep them; the last pass transposes the impulses back.
 struct WideStages {
     int lanes;
+    // Bodies that are in the scene and sound: swept bounds, without copies and without the mark of inactive ones, and masses at the
+    // present orientation (compute_bounds). Marks: 1 if contacts of the body are to be predicted.
+    void (*bound)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs), with their manifolds
     // (collide_persistent).
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
@@ -62,7 +67,12 @@ struct WideStages {
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);
     void (*relax)(const WideTables&, std::size_t first, std::size_t last);
+    // Movable bodies: the velocity after the last substep (end_step). Marks: bits of BodyEnd.
+    void (*finish)(const WideTables&, std::size_t first, std::size_t last);
 };
+
+// Marks of bodies at the end of a step.
+enum BodyEnd : unsigned { carries_contacts = 1, is_unsound = 2, is_spin_limited = 4, was_fast = 8 };
 
 // The SIMD stages of this processor with at most `most` lanes; null if there are none.
 const WideStages* wide_stages(int most);

@@ -80,6 +80,7 @@ struct Uint {
     friend SCREE_INLINE Uint operator-(Uint a, Uint b) { return a.v - b.v; }
     friend SCREE_INLINE Uint operator&(Uint a, Uint b) { return a.v & b.v; }
     friend SCREE_INLINE Uint operator|(Uint a, Uint b) { return a.v | b.v; }
+    friend SCREE_INLINE Uint operator^(Uint a, Uint b) { return a.v ^ b.v; }
     friend SCREE_INLINE Uint operator~(Uint a) { return ~a.v; }
     friend SCREE_INLINE Uint operator*(Uint a, Uint b) { return a.v * b.v; }
     friend SCREE_INLINE Uint operator<<(Uint a, uint32_t by) { return a.v << by; }
@@ -135,6 +136,12 @@ SCREE_INLINE Float choose(Bool condition, float a, float b) {
     return choose(condition, Float(a), Float(b));
 }
 
+// The greatest integer that is not above x, in two's complement; for |x| below 2^31.
+SCREE_INLINE Uint whole(Float x) {
+    const Masks towards_zero = __builtin_convertvector(x.v, Masks);
+    return (Words)(towards_zero + (__builtin_convertvector(towards_zero, Floats) > x.v));  // true is -1
+}
+
 struct vec3 {
     Float x, y, z;
     vec3() = default;
@@ -153,6 +160,7 @@ struct vec4 {
     SCREE_INLINE vec4(vec3 a, Float b) : x(a.x), y(a.y), z(a.z), w(b) {}
     SCREE_INLINE Float& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
     SCREE_INLINE Float operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
+    friend SCREE_INLINE vec4 operator-(vec4 a, vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
     friend SCREE_INLINE vec4 operator+(vec4 a, vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
     friend SCREE_INLINE vec4 operator*(vec4 a, Float b) { return {a.x * b, a.y * b, a.z * b, a.w * b}; }
     friend SCREE_INLINE vec4 operator-(vec4 a) { return {-a.x, -a.y, -a.z, -a.w}; }
@@ -162,6 +170,10 @@ struct uvec4 {
     SCREE_INLINE explicit uvec4(Uint a) : x(a), y(a), z(a), w(a) {}
     SCREE_INLINE Uint& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
     SCREE_INLINE Uint operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
+};
+struct ivec3 {
+    Uint x, y, z;  // in two's complement
+    SCREE_INLINE ivec3(Uint a, Uint b, Uint c) : x(a), y(b), z(c) {}
 };
 SCREE_INLINE vec3 choose(Bool c, vec3 a, vec3 b) {
     return {choose(c, a.x, b.x), choose(c, a.y, b.y), choose(c, a.z, b.z)};

@@ -18,6 +18,7 @@ CONSTANT uint COPY_BREAKS = 2u;  // some body breaks in this step
 LAW bool has_copies(Parameters parameters) {
     return parameters.bodies_of_copy != 0u;
 }
+#ifndef SCREE_LANES
 // Of integers, hence exact: the one division of the laws (tests/house/subset.cpp).
 LAW uint quotient(uint dividend, uint divisor) {
     return dividend / divisor;
@@ -26,6 +27,7 @@ LAW uint quotient(uint dividend, uint divisor) {
 LAW uint copy_of_id(uint id, Parameters parameters) {
     return quotient(id, parameters.bodies_of_copy);
 }
+#endif
 // Steps since a copy began: in the step of its birth it has no contacts before.
 LAW uint age_of_copy(uint steps, uint birth) {
     return steps - birth;

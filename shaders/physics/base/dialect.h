@@ -57,6 +57,10 @@ LAW vec3 choose(bool condition, vec3 a, vec3 b) {
 LAW vec4 choose(bool condition, vec4 a, vec4 b) {
     return condition ? a : b;
 }
+// The greatest integer that is not above x, in two's complement.
+LAW int whole(float x) {
+    return int(floor(x));
+}
 LAWS_END
 #endif
 

@@ -28,47 +28,28 @@ CONSTANT uint COPY_SHIFT = 10u;
 CONSTANT uint COPY_BITS = 0xFFFFFC00u;
 CONSTANT uint MOST_COPIES = 0x400000u;
 
-LAW float power_of_two(int exponent) {
-    return uintBitsToFloat(uint(exponent + 127) << 23);
-}
-
 // The lowest level whose cells are 1% wider than `extent`: the margin covers rounding of positions up to 80,000 cells
 // away.
 LAW uint level_of(float extent, float inverse_cell) {
     float cells = extent * inverse_cell * 1.01f;
-    if (cells <= 1.0f) return 0u;
     uint bits = floatBitsToUint(cells);
-    uint level = (bits >> 23) - 127u + ((bits & 0x7FFFFFu) != 0u ? 1u : 0u);
-    return level < LEVELS - 1u ? level : LEVELS - 1u;
+    uint level = (bits >> 23) - 127u + choose((bits & 0x7FFFFFu) != 0u, 1u, 0u);
+    level = choose(level < LEVELS - 1u, level, LEVELS - 1u);
+    return choose(cells <= 1.0f, 0u, level);
 }
 
+LAW float inverse_width_at(uint level, float inverse_cell) {
+    return inverse_cell * uintBitsToFloat((127u - level) << 23);  // times 2^-level
+}
 LAW ivec3 cell_at(vec3 point, uint level, float inverse_cell) {
-    vec3 scaled = point * (inverse_cell * power_of_two(-int(level)));
+    vec3 scaled = point * inverse_width_at(level, inverse_cell);
     vec3 far = vec3(1.0e9f);  // far away bodies share a cell, whose index must fit an int
     scaled = larger3(smaller3(scaled, far), -far);
-    return ivec3(int(floor(scaled.x)), int(floor(scaled.y)), int(floor(scaled.z)));
+    return ivec3(whole(scaled.x), whole(scaled.y), whole(scaled.z));
 }
 LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {
     return cell_at((lower + upper) * 0.5f, level, inverse_cell);
 }
-// The cells in which a body of that level can have its centre if its AABB overlaps this one: half a cell outside at
-// most.
-struct CellRange {
-    ivec3 first;
-    int pad0;
-    ivec3 last;
-    int pad1;
-};
-LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
-    vec3 reach = vec3(0.5f * parameters.cell * power_of_two(int(level)));
-    CellRange range;
-    range.first = cell_at(lower - reach, level, parameters.inverse_cell);
-    range.last = cell_at(upper + reach, level, parameters.inverse_cell);
-    range.pad0 = 0;
-    range.pad1 = 0;
-    return range;
-}
-
 // The hash bucket of a cell: consecutive along x; rows by a multiplicative hash (Teschner et al. 2003, with other
 // primes and one more mix). `level`: with the copy.
 LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
@@ -93,17 +74,16 @@ CONSTANT uint NOT_IN_GRID = 0x40u;
 LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity velocity, BodyForces load,
                      Parameters parameters) {
     vec3 half_size = half_extents_of(properties, pose.orientation);
-    bool moves = in_motion(velocity);
-    if (properties.shape == SHAPE_PLANE) {
-        half_size = vec3(1.0e30f);
-    } else if (moves && properties.shape != SHAPE_SPHERE) {
+    bool plane = properties.shape == SHAPE_PLANE, moves = in_motion(velocity);
+    bool turns = moves && !plane && properties.shape != SHAPE_SPHERE;
+    if (!none(turns)) {
         float reach = bounding_radius(properties);
         // Rotation extends the AABB by at most the arc, and never beyond the bounding sphere.
         float arc = length3(velocity.angular) * parameters.dt * reach;
-        half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
+        half_size = choose(turns, smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach))), half_size);
     }
-    half_size = half_size + vec3(0.5f * speculative_of(properties, parameters));
-    if (moves && is_part(properties)) half_size = half_size + vec3(bend);
+    half_size = choose(plane, vec3(1.0e30f), half_size) + vec3(0.5f * speculative_of(properties, parameters));
+    half_size = choose(moves && is_part(properties), half_size + vec3(bend), half_size);
     vec3 way = velocity.linear * parameters.dt;
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
@@ -113,22 +93,49 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
     bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
     // A fast body may rebound within the step, and one that did in the last substep has not returned all of its impact
     // (restitution.h) to what is behind it.
-    if (will_be_fast(properties, velocity, parameters)) {
+    bool fast = will_be_fast(properties, velocity, parameters);
+    if (!none(fast)) {
         vec3 back = velocity.linear * larger(parameters.h, properties.restitution * parameters.dt);
-        bounds.lower = smaller3(bounds.lower, pose.position - half_size - back);
-        bounds.upper = larger3(bounds.upper, pose.position + half_size - back);
+        bounds.lower = choose(fast, smaller3(bounds.lower, pose.position - half_size - back), bounds.lower);
+        bounds.upper = choose(fast, larger3(bounds.upper, pose.position + half_size - back), bounds.upper);
     }
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
     bounds.sweep = sweep_of(pose);
-    if (!is_large(properties)) {
+    bool listed = !is_large(properties);
+    if (!none(listed)) {
         vec3 extent = bounds.upper - bounds.lower;
-        bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
-        bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
-                                  parameters.buckets);
+        uint level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
+        uint bucket =
+            bucket_of(cell_of(bounds.lower, bounds.upper, level, parameters.inverse_cell), level, parameters.buckets);
+        bounds.level = choose(listed, level, bounds.level);
+        bounds.bucket = choose(listed, bucket, bounds.bucket);
     }
-    if (properties.shape == SHAPE_NONE) bounds.level = NOT_IN_GRID;
+    bounds.level = choose(properties.shape == SHAPE_NONE, NOT_IN_GRID, bounds.level);
     return bounds;
+}
+
+#ifndef SCREE_LANES  // the rest has branches
+
+LAW float power_of_two(int exponent) {
+    return uintBitsToFloat(uint(exponent + 127) << 23);
+}
+// The cells in which a body of that level can have its centre if its AABB overlaps this one: half a cell outside at
+// most.
+struct CellRange {
+    ivec3 first;
+    int pad0;
+    ivec3 last;
+    int pad1;
+};
+LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
+    vec3 reach = vec3(0.5f * parameters.cell * power_of_two(int(level)));
+    CellRange range;
+    range.first = cell_at(lower - reach, level, parameters.inverse_cell);
+    range.last = cell_at(upper + reach, level, parameters.inverse_cell);
+    range.pad0 = 0;
+    range.pad1 = 0;
+    return range;
 }
 
 // Bounds of an absent body: in no bucket.
@@ -215,6 +222,8 @@ LAW uint pair_type_of(uint shape_a, uint shape_b) {
     if (is_general_convex(high)) return low == SHAPE_PLANE ? PAIR_PLANE_CONVEX : PAIR_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
+
+#endif
 
 LAWS_END
 

@@ -80,6 +80,56 @@ LAW float min_half_width(uint shape, vec3 size) {
     return choose(shape == SHAPE_PLANE || shape == SHAPE_TRIANGLE, 1.0e30f, width);
 }
 
+// Radius of the bounding sphere about the centre; for a hull an upper bound.
+LAW float bounding_radius(uint shape, vec3 size) {
+    float radius = size.x;
+    bool polyhedron = is_polyhedron(shape), has_rim = shape == SHAPE_CYLINDER || shape == SHAPE_CONE;
+    if (!none(polyhedron)) radius = choose(polyhedron, length3(size), radius);
+    radius = choose(shape == SHAPE_NONE, size.y, radius);
+    radius = choose(shape == SHAPE_ELLIPSOID, largest_component(size), radius);
+    radius = choose(shape == SHAPE_CAPSULE, size.x + size.y, radius);
+    if (!none(has_rim)) {
+        float height = choose(shape == SHAPE_CONE, 0.25f * size.y, size.y);
+        float rim = square_root(size.x * size.x + height * height);
+        radius = choose(has_rim, choose(shape == SHAPE_CONE, larger(0.75f * size.y, rim), rim), radius);
+    }
+    return radius;
+}
+// Upper bound of the surface's normal speed at an angular velocity of 1 rad/s: 0 for a sphere, half the axis for a
+// capsule.
+LAW float turning_reach(uint shape, vec3 size) {
+    float reach = choose(shape == SHAPE_SPHERE || shape == SHAPE_PLANE, 0.0f, bounding_radius(shape, size));
+    reach = choose(shape == SHAPE_ELLIPSOID, largest_component(size) - smallest_component(size), reach);
+    return choose(shape == SHAPE_CAPSULE, size.y, reach);
+}
+// Half extents of the AABB.
+LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
+    vec3 half_size = vec3(size.x);
+    bool polyhedron = is_polyhedron(shape), capsule = shape == SHAPE_CAPSULE, ellipsoid = shape == SHAPE_ELLIPSOID;
+    bool cone = shape == SHAPE_CONE, has_rim = cone || shape == SHAPE_CYLINDER;
+    if (!none(polyhedron)) {
+        Axes axes = axes_of(orientation);
+        vec3 corner = absolute3(axes.x) * size.x + absolute3(axes.y) * size.y + absolute3(axes.z) * size.z;
+        half_size = choose(polyhedron, corner, half_size);
+    }
+    if (!none(capsule)) half_size = choose(capsule, half_size + absolute3(upright(orientation) * size.y), half_size);
+    if (!none(has_rim)) {
+        vec3 axis = absolute3(upright(orientation));
+        vec3 rim = vec3(square_root(positive(1.0f - axis.x * axis.x)), square_root(positive(1.0f - axis.y * axis.y)),
+                        square_root(positive(1.0f - axis.z * axis.z))) *
+                   size.x;
+        vec3 of_cone = larger3(rim + axis * (0.25f * size.y), axis * (0.75f * size.y));
+        half_size = choose(has_rim, choose(cone, of_cone, rim + axis * size.y), half_size);
+    }
+    if (!none(ellipsoid)) {
+        Axes axes = axes_of(orientation);
+        vec3 x = axes.x * size.x, y = axes.y * size.y, z = axes.z * size.z;
+        vec3 poles = vec3(length3(vec3(x.x, y.x, z.x)), length3(vec3(x.y, y.y, z.y)), length3(vec3(x.z, y.z, z.z)));
+        half_size = choose(ellipsoid, poles, half_size);
+    }
+    return choose(shape == SHAPE_NONE, vec3(size.y), half_size);
+}
+
 #ifndef SCREE_LANES  // the rest has branches
 
 // Number of flat faces that need no table.
@@ -95,23 +145,6 @@ LAW float cone_base(vec3 size) {
     return -0.25f * size.y;
 }
 
-// Radius of the bounding sphere about the centre; for a hull an upper bound.
-LAW float bounding_radius(uint shape, vec3 size) {
-    if (is_polyhedron(shape)) return length3(size);
-    if (shape == SHAPE_NONE) return size.y;
-    if (shape == SHAPE_ELLIPSOID) return largest_component(size);
-    if (shape == SHAPE_CAPSULE) return size.x + size.y;
-    if (shape == SHAPE_CYLINDER) return square_root(size.x * size.x + size.y * size.y);
-    if (shape == SHAPE_CONE) return larger(0.75f * size.y, square_root(size.x * size.x + 0.0625f * (size.y * size.y)));
-    return size.x;
-}
-// Upper bound of the surface's normal speed at an angular velocity of 1 rad/s: 0 for a sphere, half the axis for a
-// capsule.
-LAW float turning_reach(uint shape, vec3 size) {
-    if (shape == SHAPE_CAPSULE) return size.y;
-    if (shape == SHAPE_ELLIPSOID) return largest_component(size) - smallest_component(size);
-    return shape == SHAPE_SPHERE || shape == SHAPE_PLANE ? 0.0f : bounding_radius(shape, size);
-}
 // Lower bound of the core's support in any direction; for hulls it is in the table.
 LAW float inner_radius(uint shape, vec3 size) {
     if (shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID) return smallest_component(size);
@@ -126,32 +159,6 @@ LAW float widest(uint shape, vec3 size) {
     if (shape == SHAPE_CAPSULE) return 2.0f * (size.x + size.y);
     if (shape == SHAPE_CONE) return larger(2.0f * size.x, 1.5f * size.y);
     return 2.0f * largest_component(size);
-}
-// Half extents of the AABB.
-LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
-    vec3 half_size = vec3(size.x);
-    if (shape == SHAPE_CAPSULE) {
-        half_size = half_size + absolute3(upright(orientation) * size.y);
-    } else if (shape == SHAPE_CYLINDER || shape == SHAPE_CONE) {
-        vec3 axis = absolute3(upright(orientation));
-        vec3 rim = vec3(square_root(positive(1.0f - axis.x * axis.x)), square_root(positive(1.0f - axis.y * axis.y)),
-                        square_root(positive(1.0f - axis.z * axis.z))) *
-                   size.x;
-        if (shape == SHAPE_CYLINDER)
-            half_size = rim + axis * size.y;
-        else
-            half_size = larger3(rim + axis * (0.25f * size.y), axis * (0.75f * size.y));
-    } else if (shape == SHAPE_NONE) {
-        half_size = vec3(size.y);
-    } else if (shape == SHAPE_ELLIPSOID) {
-        Axes axes = axes_of(orientation);
-        vec3 x = axes.x * size.x, y = axes.y * size.y, z = axes.z * size.z;
-        half_size = vec3(length3(vec3(x.x, y.x, z.x)), length3(vec3(x.y, y.y, z.y)), length3(vec3(x.z, y.z, z.z)));
-    } else if (is_polyhedron(shape)) {
-        Axes axes = axes_of(orientation);
-        half_size = absolute3(axes.x) * size.x + absolute3(axes.y) * size.y + absolute3(axes.z) * size.z;
-    }
-    return half_size;
 }
 // The radii of a sphere, capsule end or ellipsoid along its axes.
 LAW vec3 ball_radii(uint shape, vec3 size) {

@@ -42,9 +42,10 @@ LAW bool in_motion(Velocity v) {
 // Whether a body at this velocity will be fast, so that its doubtful contacts are left to the time of impact. Bodies on
 // joints keep all of theirs, which hold most of them back without a clamp of the whole mechanism.
 LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters parameters) {
-    if (!in_motion(velocity) || properties.joints != NONE) return false;
+    bool may_be = in_motion(velocity) && properties.joints == NONE && properties.motion != MOTION_FIXED;
+    if (none(may_be)) return may_be;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
-    return properties.motion != MOTION_FIXED && way * parameters.dt > ccd_threshold(properties);
+    return may_be && way * parameters.dt > ccd_threshold(properties);
 }
 
 // Flags of Sweep.struck, of what is predicted for the step.
@@ -53,9 +54,10 @@ CONSTANT uint DRIVEN = 2u;  // a fast kinematic body, or one that outweighs it, 
 // Whether the body drives what it meets further than the margin in which the broadphase searched for that. Nothing stops a
 // kinematic body, so what is clamped before it would be left behind.
 LAW bool drives(BodyProperties properties, Velocity velocity, Parameters parameters) {
-    if (properties.motion != MOTION_KINEMATIC) return false;
+    bool kinematic = properties.motion == MOTION_KINEMATIC;
+    if (none(kinematic)) return kinematic;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
-    return way * parameters.dt > speculative_of(properties, parameters);
+    return kinematic && way * parameters.dt > speculative_of(properties, parameters);
 }
 // A body outweighs one of at most this part of its mass: what it strikes goes with it. (Clamped by the splinters before it, a
 // ball of 2.6 t went 3 to 77% of the way through 49 splinters of 4 kg that its velocity of 20 to 300 m/s, which hardly
@@ -85,7 +87,7 @@ LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
 // Difference of two quaternions on the shorter arc, whatever the sign of the second.
 LAW vec4 turn_between(vec4 from, vec4 to) {
     float cosine = (from.x * to.x + from.y * to.y) + (from.z * to.z + from.w * to.w);
-    return cosine < 0.0f ? -to - from : to - from;
+    return choose(cosine < 0.0f, -to - from, to - from);
 }
 // Bound on the angular speed if the quaternion goes straight from one orientation by `turn` to the other, rad per step:
 // its angle p (half of the rotation) changes fastest midway, at twice the tangent of half of p: 2 |turn| over |from +
@@ -122,6 +124,8 @@ LAW bool was_fast(BodyProperties properties, Sweep sweep, Pose end) {
     float way = length3(end.position - sweep.position) + turning_of(sweep.orientation, turn) * lever_of(properties);
     return way > ccd_threshold(properties);
 }
+
+#ifndef SCREE_LANES  // the rest has branches
 
 // The fraction of a displacement `way` along one axis, by a body that grows by `growth` along that axis as it turns, for which it
 // stays within the room behind and before it, m. Always greater than 0 if there is room at the start: a body that is held where
@@ -192,6 +196,8 @@ LAW ClampedMotion clamp_motion(Sweep sweep, Pose end, Velocity velocity, BodyPro
             flush_tiny(spin_in(after.pose.orientation, end.orientation, velocity.angular, body.inverse_inertia));
     return after;
 }
+
+#endif
 
 LAWS_END
 
