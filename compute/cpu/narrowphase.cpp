@@ -43,12 +43,12 @@ physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyPro
     return laws_of_convex[pair_type - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
 }
 
-void set_manifold(State& state, std::size_t index, physics::ManifoldBuffer touch, const physics::Margin& margin) {
+// Makes the manifold of a part relative to its body.
+void begin_at_body(State& state, std::size_t index) {
     const std::size_t a = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
-    touch = physics::within_margin(touch, margin);
-    if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
-    state.pair_manifolds[index] = touch.manifold;
-    state.point_counts[index] = touch.count;
+    if (a == body) return;
+    const physics::ManifoldBuffer touch{state.pair_manifolds[index], state.point_counts[index]};
+    state.pair_manifolds[index] = physics::from_body(touch, state.poses[a].position - state.poses[body].position).manifold;
 }
 
 void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
@@ -67,7 +67,9 @@ void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
         ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, most, state), pa.position - pb.position)
                             : touch_of(pair_type, ta, pa, tb, pb, most, state);
     if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
-    set_manifold(state, index, touch, margin);
+    touch = physics::within_margin(touch, margin);
+    state.pair_manifolds[index] = touch.manifold;
+    state.point_counts[index] = touch.count;
 }
 
 // Pairs of boxes in SIMD lanes: the separating axes of all, then the manifolds of those that touch by faces, and by edges.
@@ -84,12 +86,6 @@ void collide_boxes(State& state, const WideStages& wide, std::size_t first, std:
         tables.items = list.pairs.data();
         tables.places = list.places.data();
         if (list.count > 0) wide.collide_boxes(tables, 0, list.count);
-        for (std::size_t k = 0; k < list.count; ++k) {
-            const std::uint32_t index = list.pairs[k];
-            if (const std::uint32_t a = state.pairs[index].a; a != state.body_of(a))
-                set_manifold(state, index, {state.pair_manifolds[index], state.point_counts[index]},
-                             found[list.places[k]].margin);
-        }
     };
     for (; first < last; first += at_once) {
         tables.items = state.pairs_by_type.data() + first;
@@ -101,7 +97,7 @@ void collide_boxes(State& state, const WideStages& wide, std::size_t first, std:
             const physics::BoxAxes& axes = found[k].axes;
             const physics::Pair& pair = state.pairs[index];
             if (physics::are_apart(axes, physics::greatest_margin(found[k].margin))) {
-                set_manifold(state, index, physics::empty_manifold(), found[k].margin);
+                state.point_counts[index] = 0;
                 continue;
             }
             const auto reference = physics::reference_face(axes, state.properties[pair.a].size, state.properties[pair.b].size);
@@ -158,12 +154,16 @@ void fill_pair_types(State& state, const Threads& threads, std::uint32_t) {
 void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
     const std::size_t first = state.counted().pair_type_first[pair_type];
     const WideStages* wide = wide_stages(threads.lanes());
-    const bool of_boxes = wide && pair_type == physics::PAIR_BOX_BOX && state.gravities.empty();
+    const bool in_lanes = wide && pair_type <= physics::PAIR_BOX_PLANE && state.gravities.empty();
+    const bool has_parts = state.fixed().first_part < state.fixed().bodies;
     threads.for_ranges(state.counted().pair_type_first[pair_type + 1] - first, [&](std::size_t begin, std::size_t end) {
-        if (of_boxes)
+        if (!in_lanes)
+            for (std::size_t i = first + begin; i < first + end; ++i) collide_pair(state, pair_type, state.pairs_by_type[i]);
+        else if (pair_type == physics::PAIR_BOX_BOX)
             collide_boxes(state, *wide, first + begin, first + end);
         else
-            for (std::size_t i = first + begin; i < first + end; ++i) collide_pair(state, pair_type, state.pairs_by_type[i]);
+            wide->collide(wide_tables(state, state.pairs_by_type), pair_type, first + begin, first + end);
+        for (std::size_t i = first + begin; has_parts && i < first + end; ++i) begin_at_body(state, state.pairs_by_type[i]);
         count_found(state, first + begin, first + end);
     });
 }

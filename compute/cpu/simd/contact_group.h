@@ -127,19 +127,6 @@ struct Group {
     }
 };
 
-// Of each lane the record of one or the other.
-template <typename Record>
-SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {
-    Record chosen;
-    for (std::size_t word = 0; word < sizeof(Record) / sizeof(Words); ++word) {
-        AnyWords of_a, of_b;
-        __builtin_memcpy(&of_a, reinterpret_cast<const AnyWords*>(&a) + word, sizeof of_a);
-        __builtin_memcpy(&of_b, reinterpret_cast<const AnyWords*>(&b) + word, sizeof of_b);
-        reinterpret_cast<AnyWords*>(&chosen)[word] = condition.v ? of_a : of_b;
-    }
-    return chosen;
-}
-
 }  // namespace
 
 LAWS_END

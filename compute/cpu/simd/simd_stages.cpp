@@ -8,6 +8,14 @@
 #include "compute/cpu/simd/simd_types.h"
 
 #include "shaders/physics/collide/collide_box_box.h"
+#include "shaders/physics/collide/collide_box_plane.h"
+#include "shaders/physics/collide/collide_capsule_box.h"
+#include "shaders/physics/collide/collide_capsule_capsule.h"
+#include "shaders/physics/collide/collide_capsule_plane.h"
+#include "shaders/physics/collide/collide_sphere_box.h"
+#include "shaders/physics/collide/collide_sphere_capsule.h"
+#include "shaders/physics/collide/collide_sphere_plane.h"
+#include "shaders/physics/collide/collide_sphere_sphere.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
@@ -82,36 +90,104 @@ void keep(const WideTables& tables, std::size_t first, std::size_t last) {
     }
 }
 
+// A group of pairs whose bodies, or parts, the narrowphase compares.
+struct TouchingGroup {
+    Indices pairs;
+    Bool live;
+    std::size_t count;
+    Pair pair;
+    BodyProperties ta, tb;
+    Pose pose_a, pose_b;
+
+    SCREE_INLINE TouchingGroup(const WideTables& tables, std::size_t first, std::size_t last)
+        : pairs(listed(tables.items, first, last)),
+          live(living(first, last)),
+          count(last - first < lanes ? last - first : lanes),
+          pair(gather<Pair>(tables.pairs, pairs)),
+          ta(gather<BodyProperties>(tables.properties, Indices(pair.a))),
+          tb(gather<BodyProperties>(tables.properties, Indices(pair.b))),
+          pose_a(gather<Pose>(tables.poses, Indices(pair.a))),
+          pose_b(gather<Pose>(tables.poses, Indices(pair.b))) {}
+
+    SCREE_INLINE Margin margin(const WideTables& tables, const Parameters& p) const {
+        return margin_of(ta, gather<Velocity>(tables.velocities, Indices(pair.a)), tb,
+                         gather<Velocity>(tables.velocities, Indices(pair.b)), p);
+    }
+    SCREE_INLINE void keep(const WideTables& tables, const ManifoldBuffer& touch) const {
+        scatter(tables.manifolds, pairs.only(live), touch.manifold);
+        for (std::size_t lane = 0; lane < count; ++lane) tables.point_counts[pairs.of[lane]] = touch.count.v[lane];
+    }
+};
+
+// Of each lane the record of one or the other.
+template <typename Record>
+SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {
+    Record chosen;
+    for (std::size_t word = 0; word < sizeof(Record) / sizeof(Words); ++word) {
+        AnyWords of_a, of_b;
+        __builtin_memcpy(&of_a, reinterpret_cast<const AnyWords*>(&a) + word, sizeof of_a);
+        __builtin_memcpy(&of_b, reinterpret_cast<const AnyWords*>(&b) + word, sizeof of_b);
+        reinterpret_cast<AnyWords*>(&chosen)[word] = condition.v ? of_a : of_b;
+    }
+    return chosen;
+}
+
+using CollisionLaw = ManifoldBuffer(BodyProperties, Pose, BodyProperties, Pose, Float);
+template <CollisionLaw law>
+SCREE_INLINE void collide_by(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const TouchingGroup group(tables, first, last);
+        const Margin margin = group.margin(tables, p);
+        const Bool swaps = group.ta.shape > group.tb.shape;  // laws expect the shape of the lower id first
+        const Pose front = choose_record(swaps, group.pose_b, group.pose_a), back = choose_record(swaps, group.pose_a, group.pose_b);
+        const ManifoldBuffer touch = law(choose_record(swaps, group.tb, group.ta), front,
+                                         choose_record(swaps, group.ta, group.tb), back, greatest_margin(margin));
+        group.keep(tables, within_margin(flipped(swaps, touch, back.position - front.position), margin));
+    }
+}
+void collide(const WideTables& tables, std::uint32_t pair_type, std::size_t first, std::size_t last) {
+    switch (pair_type) {
+        case 0:
+            return collide_by<collide_sphere_sphere>(tables, first, last);
+        case 1:
+            return collide_by<collide_sphere_capsule>(tables, first, last);
+        case 2:
+            return collide_by<collide_sphere_box>(tables, first, last);
+        case 3:
+            return collide_by<collide_sphere_plane>(tables, first, last);
+        case 4:
+            return collide_by<collide_capsule_capsule>(tables, first, last);
+        case 5:
+            return collide_by<collide_capsule_box>(tables, first, last);
+        case 6:
+            return collide_by<collide_capsule_plane>(tables, first, last);
+        default:
+            return collide_by<collide_box_plane>(tables, first, last);
+    }
+}
+
 void separate_boxes(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        const Indices pairs(listed(tables.items, first, last));
-        const Pair pair = gather<Pair>(tables.pairs, pairs);
-        const Indices a(pair.a), b(pair.b);
-        const BodyProperties ta = gather<BodyProperties>(tables.properties, a), tb = gather<BodyProperties>(tables.properties, b);
+        const TouchingGroup group(tables, first, last);
         BoxPair found;
-        found.margin = margin_of(ta, gather<Velocity>(tables.velocities, a), tb, gather<Velocity>(tables.velocities, b), p);
-        found.axes =
-            box_axes(ta, gather<Pose>(tables.poses, a), tb, gather<Pose>(tables.poses, b), greatest_margin(found.margin));
+        found.margin = group.margin(tables, p);
+        found.axes = box_axes(group.ta, group.pose_a, group.tb, group.pose_b, greatest_margin(found.margin));
         const Uint places = Uint(lane_numbers()) + Uint(static_cast<std::uint32_t>(first));
-        scatter(tables.out, Indices(places).only(living(first, last)), found);
+        scatter(tables.out, Indices(places).only(group.live), found);
     }
 }
 
 void collide_boxes(const WideTables& tables, std::size_t first, std::size_t last) {
     for (; first < last; first += lanes) {
-        const Indices pairs(listed(tables.items, first, last));
+        const TouchingGroup group(tables, first, last);
         const BoxPair found = gather<BoxPair>(tables.out, Indices(listed(tables.places, first, last)));
-        const Pair pair = gather<Pair>(tables.pairs, pairs);
-        const Indices a(pair.a), b(pair.b);
-        const BodyProperties ta = gather<BodyProperties>(tables.properties, a), tb = gather<BodyProperties>(tables.properties, b);
-        const Pose pose_a = gather<Pose>(tables.poses, a), pose_b = gather<Pose>(tables.poses, b);
-        const ManifoldBuffer touch =
-            within_margin(manifold_of_boxes(ta, pose_a, tb, pose_b, found.axes, greatest_margin(found.margin)), found.margin);
-        scatter(tables.manifolds, pairs.only(living(first, last)), touch.manifold);
-        for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-            tables.point_counts[pairs.of[lane]] = touch.count.v[lane];
+        const ManifoldBuffer touch = manifold_of_boxes(group.ta, group.pose_a, group.tb, group.pose_b, found.axes,
+                                                       greatest_margin(found.margin));
+        group.keep(tables, within_margin(touch, found.margin));
     }
 }
 
@@ -439,6 +515,7 @@ namespace scree::reference {
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::bound,
                                               SCREE_NAMED(SCREE_LANES)::keep,
+                                              SCREE_NAMED(SCREE_LANES)::collide,
                                               SCREE_NAMED(SCREE_LANES)::separate_boxes,
                                               SCREE_NAMED(SCREE_LANES)::collide_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,

@@ -56,6 +56,8 @@ struct WideStages {
     // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs), with their manifolds
     // (collide_persistent).
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
+    // Pairs of a type up to PAIR_BOX_PLANE, but for those of boxes: their manifolds (collide), those of parts relative to the part.
+    void (*collide)(const WideTables&, std::uint32_t pair_type, std::size_t first, std::size_t last);
     // Pairs of boxes: their separating axes and margins (collide).
     void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs of boxes that are not apart: their manifolds (collide), those of parts relative to the part.

@@ -150,6 +150,7 @@ struct vec3 {
     friend SCREE_INLINE vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     friend SCREE_INLINE vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     friend SCREE_INLINE vec3 operator*(vec3 a, Float b) { return {a.x * b, a.y * b, a.z * b}; }
+    friend SCREE_INLINE vec3 operator*(vec3 a, vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
     friend SCREE_INLINE vec3 operator-(vec3 a) { return {-a.x, -a.y, -a.z}; }
 };
 struct vec4 {

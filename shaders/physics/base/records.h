@@ -217,6 +217,7 @@ struct Candidate {
 // collide_convex, but for planes, triangles and hull-hull. PAIR_PERSISTENT keeps its manifold (persistence.h),
 // PAIR_INACTIVE is a pair of inactive bodies.
 CONSTANT uint PAIR_BOX_BOX = 7u;
+CONSTANT uint PAIR_BOX_PLANE = 8u;
 CONSTANT uint PAIR_PLANE_CONVEX = 9u;
 CONSTANT uint PAIR_CONVEX = 10u;
 CONSTANT uint PAIR_HULL_HULL = 11u;

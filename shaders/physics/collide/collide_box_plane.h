@@ -11,17 +11,19 @@ LAW ManifoldBuffer collide_box_plane(BodyProperties a, Pose pose_a, BodyProperti
     vec3 normal = rotate_back(pose_a.orientation, b.size);
     float height = -dot3(b.size, pose_b.position - pose_a.position);
     vec3 slant = absolute3(normal);
-    uint face = slant.y >= slant.x && slant.y >= slant.z ? 1u : (slant.x >= slant.z ? 0u : 2u);
+    uint face = choose(slant.y >= slant.x && slant.y >= slant.z, 1u, choose(slant.x >= slant.z, 0u, 2u));
     ManifoldBuffer touch = manifold_along(-b.size);
-    for (uint k = 0u; k < 4u; ++k) {
-        float first = (k & 1u) == 0u ? -1.0f : 1.0f;
-        float second = (k & 2u) == 0u ? -1.0f : 1.0f;
-        vec3 signs = vec3(normal.x > 0.0f ? -1.0f : 1.0f, first, second);
-        if (face == 1u) signs = vec3(first, normal.y > 0.0f ? -1.0f : 1.0f, second);
-        if (face == 2u) signs = vec3(first, second, normal.z > 0.0f ? -1.0f : 1.0f);
+    for (int k = 0; k < 4; ++k) {
+        float first = (k & 1) == 0 ? -1.0f : 1.0f;
+        float second = (k & 2) == 0 ? -1.0f : 1.0f;
+        vec3 of_x = vec3(choose(normal.x > 0.0f, -1.0f, 1.0f), first, second);
+        vec3 of_y = vec3(first, choose(normal.y > 0.0f, -1.0f, 1.0f), second);
+        vec3 of_z = vec3(first, second, choose(normal.z > 0.0f, -1.0f, 1.0f));
+        vec3 signs = choose(face == 0u, of_x, choose(face == 1u, of_y, of_z));
         vec3 corner = signs * a.size;
         float separation = height + dot3(normal, corner);
-        uint feature = (signs.x > 0.0f ? 1u : 0u) + (signs.y > 0.0f ? 2u : 0u) + (signs.z > 0.0f ? 4u : 0u);
+        uint feature =
+            choose(signs.x > 0.0f, 1u, 0u) + choose(signs.y > 0.0f, 2u, 0u) + choose(signs.z > 0.0f, 4u, 0u);
         vec3 point = rotate(pose_a.orientation, corner) - b.size * (0.5f * separation);
         touch = with_point(touch, point, separation, feature, margin);
     }

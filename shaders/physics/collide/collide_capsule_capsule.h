@@ -25,32 +25,31 @@ LAW ManifoldBuffer collide_capsule_capsule(BodyProperties a, Pose pose_a, BodyPr
 
     vec3 across = cross3(u, v);
     float squared = dot3(across, across);
-    float s = 0.5f * (low + high);
-    if (squared > 1.0e-6f) s = clamped(dot3(cross3(d, v), across) * reciprocal(squared), -half_a, half_a);
+    float crossing = clamped(dot3(cross3(d, v), across) * reciprocal(squared), -half_a, half_a);
+    float s = choose(squared > 1.0e-6f, crossing, 0.5f * (low + high));
     float t = cosine * s - along_v;
-    if (abs(t) > half_b) {
-        t = clamped(t, -half_b, half_b);
-        s = clamped(along_u + cosine * t, -half_a, half_a);
-    }
+    bool beyond = abs(t) > half_b;
+    t = clamped(t, -half_b, half_b);
+    s = choose(beyond, clamped(along_u + cosine * t, -half_a, half_a), s);
     vec3 between = d + v * t - u * s;
     float gap = length3(between);
     vec3 sideways = unit3(across, tangent(u));
-    vec3 normal = gap > 1.0e-5f * radii ? unit3(between, sideways) : sideways;
+    vec3 normal = choose(gap > 1.0e-5f * radii, unit3(between, sideways), sideways);
 
     ManifoldBuffer touch = manifold_along(normal);
     float shared_length = high - low;
     float parting = 0.1f * radii;
     bool parallel = squared < 0.03f && squared * shared_length * shared_length < parting * parting;
-    if (parallel && shared_length > 0.01f * radii) {
-        for (uint k = 0u; k < 2u; ++k) {
-            s = k == 0u ? low : high;
+    bool two = parallel && shared_length > 0.01f * radii;
+    float separation = gap - radii;
+    touch = with_point(!two, touch, u * s + normal * (a.size.x + 0.5f * separation), separation, 0u, margin);
+    if (!none(two)) {
+        for (int k = 0; k < 2; ++k) {
+            s = k == 0 ? low : high;
             t = clamped(cosine * s - along_v, -half_b, half_b);
-            float separation = dot3(normal, d + v * t - u * s) - radii;
-            touch = with_point(touch, u * s + normal * (a.size.x + 0.5f * separation), separation, 1u + k, margin);
+            separation = dot3(normal, d + v * t - u * s) - radii;
+            touch = with_point(two, touch, u * s + normal * (a.size.x + 0.5f * separation), separation, uint(1 + k), margin);
         }
-    } else {
-        float separation = gap - radii;
-        touch = with_point(touch, u * s + normal * (a.size.x + 0.5f * separation), separation, 0u, margin);
     }
     return touch;
 }

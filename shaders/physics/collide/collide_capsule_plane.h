@@ -15,10 +15,7 @@ LAW ManifoldBuffer collide_capsule_plane(BodyProperties a, Pose pose_a, BodyProp
     float high = (height + rise) - a.size.x;
     ManifoldBuffer touch = manifold_along(-b.size);
     touch = with_point(touch, -half_axis - b.size * (a.size.x + 0.5f * low), low, 0u, margin);
-    if (a.size.y > 0.0f) {
-        touch = with_point(touch, half_axis - b.size * (a.size.x + 0.5f * high), high, 1u, margin);
-    }
-    return touch;
+    return with_point(a.size.y > 0.0f, touch, half_axis - b.size * (a.size.x + 0.5f * high), high, 1u, margin);
 }
 
 LAWS_END
