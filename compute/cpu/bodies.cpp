@@ -80,6 +80,22 @@ void list_moving_bodies(State& state) {
     }
 }
 
+void make_room_for_bodies(State& state, std::size_t lanes) {
+    const std::size_t groups = (state.movable_bodies.size() + lanes - 1) / lanes;
+    const std::size_t lines = groups * lanes * words_of_body * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
+    if (state.lane_bodies.size() >= lines) return;
+    state.lane_bodies = {};  // freed first; nothing in it lasts from step to step
+    state.lane_bodies.resize(lines);
+}
+// Calls range(first, last) for ranges that begin with a group of lanes.
+template <typename Range>
+void for_each_group_of_bodies(std::size_t bodies, const Threads& threads, const WideStages& wide, const Range& range) {
+    const auto lanes = static_cast<std::size_t>(wide.lanes);
+    threads.for_ranges((bodies + lanes - 1) / lanes,
+                       [&](std::size_t first, std::size_t last) { range(first * lanes, std::min(last * lanes, bodies)); },
+                       Threads::grain / lanes);
+}
+
 // Skips the atomic where the bits are set already.
 void note(physics::uint& mask, physics::uint bits) {
     const std::atomic_ref all(mask);
@@ -227,8 +243,7 @@ bool end_body(State& state, std::size_t i, unsigned marks) {
         std::atomic_ref(state.counted().quarantined).fetch_add(1, std::memory_order_relaxed);
         return false;
     }
-    if ((marks & is_spin_limited) != 0)
-        std::atomic_ref(state.counted().spin_limited).fetch_add(1, std::memory_order_relaxed);
+    if ((marks & is_spin_limited) != 0) std::atomic_ref(state.counted().spin_limited).fetch_add(1, std::memory_order_relaxed);
     const physics::uint sleep_steps = state.fixed().sleep_steps;
     const float pace = sleep_steps != physics::NO_SLEEP ? physics::pace_of(properties, velocity, state.fixed()) : 0;
     const float carrying = (marks & carries_contacts) != 0 ? 1.0f : 0.0f;
@@ -315,7 +330,7 @@ void pose_parts(State& state, const Threads& threads, std::uint32_t) {
 
 void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
-    const WideTables all_tables = wide_tables(state, state.movable_bodies);
+    const WideTables all_tables = wide_tables(state, state.movable_bodies);  // other items below
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
         std::array<std::uint32_t, 128> rows;
         std::array<std::uint8_t, rows.size()> sweeping;
@@ -345,6 +360,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
     if (first != 0) list_moving_bodies(state);
     const std::vector<std::uint32_t>& bodies = state.movable_bodies;
     if (const WideStages* wide = wide_stages(threads.lanes())) {
+        if (first != 0) make_room_for_bodies(state, static_cast<std::size_t>(wide->lanes));
         WideTables tables = wide_tables(state, bodies);
         tables.first = first != 0;
         tables.steps = state.counted().steps;
@@ -354,7 +370,8 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
             threads.for_each(ages.size(), [&](std::size_t i) { ages[i] = age_of(state, i); });
             tables.ages = ages.data();
         }
-        threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
+        for_each_group_of_bodies(bodies.size(), threads, *wide,
+                                 [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
     } else {
         threads.for_each(bodies.size(), [&](std::size_t k) { begin_substep_of(state, bodies[k], first != 0); });
     }
@@ -365,7 +382,12 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
         velocity =
             physics::pulled(velocity, state.poses[grip.body], physics::whole_mass(state.masses[grip.body]), grip, state.fixed());
     }
-    if (first != 0) threads.for_each(bodies.size(), [&](std::size_t k) { scale_mass(state, bodies[k]); });
+    if (first == 0) return;
+    const WideStages* wide = wide_stages(threads.lanes());
+    if (!wide || !state.gravities.empty())
+        return threads.for_each(bodies.size(), [&](std::size_t k) { scale_mass(state, bodies[k]); });
+    const WideTables tables = wide_tables(state, bodies);
+    threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->scale(tables, begin, end); });
 }
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {
@@ -375,7 +397,8 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     if (!wide) return threads.for_each(bodies.size(), [&](std::size_t k) { move(state, bodies[k]); });
     const WideTables tables = wide_tables(state, bodies);
-    threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->move(tables, begin, end); });
+    for_each_group_of_bodies(bodies.size(), threads, *wide,
+                             [&](std::size_t begin, std::size_t end) { wide->move(tables, begin, end); });
 }
 
 void end_step(State& state, const Threads& threads, std::uint32_t) {

@@ -10,7 +10,7 @@
 
 namespace scree::reference {
 
-// A state as seen by the SIMD stages of a substep (compute/cpu/simd/simd_stages.h).
+// A state as seen by the SIMD stages (compute/cpu/simd/simd_stages.h), which process `items`.
 struct WideTables;
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 

@@ -138,6 +138,7 @@ void drop_caches(State& state) {
     release(state.movable_bodies);
     release(state.driven_bodies);
     release(state.paces);
+    release(state.lane_bodies);
 }
 
 // The rows of parts follow those of bodies.

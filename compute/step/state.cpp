@@ -285,7 +285,7 @@ std::size_t State::bytes() const {
 std::size_t State::bytes_of_loops() const {
     const auto sum = [](const auto&... lists) { return (std::size_t{0} + ... + (lists.size() * sizeof lists[0])); };
     return sum(pair_manifolds, partners, entry_cells, least_partners, row_kinds, movable_bodies, driven_bodies, movable,
-               fast_pairs, paces, solver_classes, lane_contacts, near_rows.boxes, near_rows.firsts, near_rows.ends,
+               fast_pairs, paces, solver_classes, lane_contacts, lane_bodies, near_rows.boxes, near_rows.firsts, near_rows.ends,
                near_rows.others, near_rows.places);
 }
 
@@ -295,7 +295,8 @@ std::size_t State::bytes_on_host() const {
         if (!is_of_devices(static_cast<Table>(i))) bytes += raw_bytes(static_cast<Table>(i));
     const std::size_t of_pair = sizeof(decltype(pair_manifolds)::value_type) + sizeof(decltype(fast_pairs)::value_type);
     const std::size_t of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) * 17 / 16;  // lane_contacts
-    return bytes + of_pair * fixed().pair_capacity + of_contact * fixed().contact_capacity;
+    constexpr std::size_t of_body = 56;                                                                 // lane_bodies
+    return bytes + of_pair * fixed().pair_capacity + of_contact * fixed().contact_capacity + of_body * fixed().bodies;
 }
 
 std::size_t State::bytes_when_grown(bool on_host) {

@@ -370,7 +370,8 @@ struct State {
         std::uint32_t words[16];
     };
     std::vector<CacheLine> lane_contacts;
-    bool is_watched = false;  // tables are read after every stage
+    std::vector<CacheLine> lane_bodies;  // likewise, of movable_bodies: what begin and move read of them and does not change
+    bool is_watched = false;             // tables are read after every stage
 
     ShapePlaces shape_places;
     // Records of removed bodies, for new ones: runs of part rows (offset behind first_part, count), fractures.

@@ -50,6 +50,16 @@ Scene heap(int count, std::uint32_t seed) {
     return scene;
 }
 
+Scene laden_heap(int count, std::uint32_t seed) {
+    Scene scene = heap(count, seed);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        Body& body = scene.bodies[i];
+        body.restitution = body.rolling_resistance = 0;
+        if (i % 8 == 0) body.density *= 300;
+    }
+    return scene;
+}
+
 Scene swarm(int count, float restitution, std::uint32_t seed) {
     Noise noise(seed);
     Scene scene;

@@ -1,4 +1,4 @@
-// SIMD substep stages write the same bits as the scalar loops.
+// SIMD stages write the same bits as the scalar loops.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -137,6 +137,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
         runs(tests::swarm(40, 0.8f), 1, lanes);
         runs(tests::belts(40), 1, lanes);
         runs(tests::packed(40), 1, lanes);
+        runs(tests::laden_heap(320), 2, lanes);
         runs(tests::what_has_feet(7), 1, lanes);
     }
 }

@@ -2,33 +2,11 @@
 // compute/cpu/simd/simd_stages.cpp, after the laws.
 #pragma once
 
+#include "compute/cpu/simd/lane_items.h"
+
 LAWS_BEGIN
 
 namespace {
-
-using reference::WideTables;
-
-SCREE_INLINE Words lane_numbers() {
-    Words numbers;
-    for (int lane = 0; lane < lanes; ++lane) numbers[lane] = static_cast<std::uint32_t>(lane);
-    return numbers;
-}
-// The next items; lanes beyond the end repeat the last one.
-SCREE_INLINE Uint listed(const std::uint32_t* items, std::size_t first, std::size_t last) {
-    Words found;
-    if (last - first >= lanes) {
-        __builtin_memcpy(&found, items + first, sizeof found);
-    } else {
-        for (int lane = 0; lane < lanes; ++lane) {
-            const std::size_t item = first + static_cast<std::size_t>(lane);
-            found[lane] = items[item < last ? item : last - 1];
-        }
-    }
-    return found;
-}
-SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
-    return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
-}
 
 // What the passes of a step keep of a group of contacts.
 struct Kept {
@@ -40,7 +18,7 @@ SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
 }
 // Of large worlds they come from beyond the second cache.
 SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last) {
-    if (last - first <= lanes) return;
+    if (!tables.prefetches || last - first <= lanes) return;
     const char* const next = reinterpret_cast<const char*>(&kept(tables, first + lanes));
 #pragma GCC unroll 4
     for (std::size_t line = 0; line < sizeof(Kept); line += 64) __builtin_prefetch(next + line);
@@ -55,11 +33,13 @@ SCREE_INLINE Constraint narrowed(Constraint c) {
     c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;
     return c;
 }
-template <bool plain>
-SCREE_INLINE Impulse narrowed(Impulse impulse) {
-    if (!plain) return impulse;
+SCREE_INLINE void narrow(Impulse& impulse) {
     impulse.impact = vec4(0.0f);
     impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
+}
+template <bool plain>
+SCREE_INLINE Impulse narrowed(Impulse impulse) {
+    if (plain) narrow(impulse);
     return impulse;
 }
 

@@ -9,7 +9,8 @@ namespace scree::reference {
 
 namespace {
 
-constexpr std::size_t least_blocks = 2;  // one is solved faster by itself
+constexpr std::uint32_t most_cached_contacts = 6000;  // take 1.7 MB as groups
+constexpr std::size_t least_blocks = 2;               // one is solved faster by itself
 
 // Lanes that this processor has, at most `most`.
 int widest(int most) {
@@ -50,10 +51,13 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.slots = words(state.slots);
     tables.impact_debts = state.impact_debts.data();
     tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
+    tables.body_groups = state.lane_bodies.empty() ? nullptr : state.lane_bodies.front().words;
+    tables.prefetches = state.counted().solver_contacts > most_cached_contacts;
     tables.watched = state.is_watched;
     const SceneFeatures has = state.features();
     const bool usual = !has.bounces && !has.tyres && !has.surfaces;
     tables.plain = usual && !has.rolls;
+    tables.impacts = has.bounces || state.is_watched;
     tables.warm_starts = usual && !has.blocks && !state.is_watched;
     return tables;
 }

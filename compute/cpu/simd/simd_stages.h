@@ -1,5 +1,4 @@
-// SIMD versions of the persistence of contacts, of their preparation, and of the four stages of a substep: one contact or
-// body per lane.
+// SIMD versions of the stages that take most of a step: one body, pair or contact per lane.
 #pragma once
 
 #include <cstddef>
@@ -30,33 +29,40 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    std::uint32_t* out = nullptr;  // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`
+    // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`.
+    std::uint32_t* out = nullptr;
     const std::uint32_t* places = nullptr;
-    std::uint8_t* marks = nullptr;    // one for each of `items`, of bound and finish
-    std::uint32_t* groups = nullptr;  // constraints and impulses of the contacts in `items`, one per lane
-    bool plain = false;               // no contact bounces or rolls, none has a tyre or a surface of its own
-    bool watched = false;             // `impulses` is read after every stage, not after the last alone
-    bool warm_starts = false;         // preparation warm-starts contacts from the last step, and is that of all contacts
-    float* impact_debts = nullptr;    // of each body, J (restitution.h)
-    float* carried = nullptr;         // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;          // Counts::steps in the first substep, for the hysteresis of mass splitting
-    const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene
-    bool first = false;                   // the first substep of a step
-    bool last = false;                    // the last one
+    std::uint8_t* marks = nullptr;         // one for each of `items`, of bound and finish
+    std::uint32_t* groups = nullptr;       // constraints and impulses of the contacts in `items`, one per lane
+    std::uint32_t* body_groups = nullptr;  // of the bodies in `items`: words_of_body for each, one body per lane
+    bool plain = false;                    // no contact bounces or rolls, none has a tyre or a surface of its own
+    bool watched = false;                  // tables are read after every stage: impulses not after the last alone, impacts always
+    bool impacts = true;                   // some body may be in an impact with restitution, or `watched`
+    bool warm_starts = false;              // preparation warm-starts contacts from the last step, and is that of all contacts
+    bool prefetches = false;               // `groups` are larger than the second cache
+    float* impact_debts = nullptr;         // of each body, J (restitution.h)
+    float* carried = nullptr;              // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;               // Counts::steps in the first substep, for the hysteresis of mass splitting
+    const std::uint32_t* ages = nullptr;   // of each body, in place of `steps`, if there are several copies of the scene
+    bool first = false;                    // the first substep of a step
+    bool last = false;                     // the last one
 };
 
-// The stages for items [first, last), bit-identical to the plain loops in broadphase.cpp, contacts.cpp and bodies.cpp; `first`
-// of a stage of contacts is a multiple of the lanes. Preparation transposes constraints and impulses into `groups`, where the
-// passes of the step's substeps keep them; the last pass transposes the impulses back.
+constexpr std::size_t words_of_body = 14;  // in body_groups
+
+// The stages for items [first, last), bit-identical to the plain loops of compute/cpu; `first` of a stage of contacts, and of
+// begin and move, is a multiple of the lanes. Preparation transposes constraints and impulses into `groups`, where the passes of
+// the step's substeps keep them; the last pass transposes the impulses back.
 struct WideStages {
     int lanes;
-    // Bodies that are in the scene and sound: swept bounds, without copies and without the mark of inactive ones, and masses at the
-    // present orientation (compute_bounds). Marks: 1 if contacts of the body are to be predicted.
+    // Bodies that are in the scene and sound: swept bounds, without copies and without the mark of inactive ones, and masses at
+    // the present orientation (compute_bounds). Marks: 1 if contacts of the body are to be predicted.
     void (*bound)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs), with their manifolds
     // (collide_persistent).
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
-    // Pairs of a type up to PAIR_BOX_PLANE, but for those of boxes: their manifolds (collide), those of parts relative to the part.
+    // Pairs of a type up to PAIR_BOX_PLANE, but for those of boxes: their manifolds (collide), those of parts relative to the
+    // part.
     void (*collide)(const WideTables&, std::uint32_t pair_type, std::size_t first, std::size_t last);
     // Pairs of boxes: their separating axes and margins (collide).
     void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
@@ -66,6 +72,8 @@ struct WideStages {
     // `warm_starts` of all contacts, and what they take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
+    // Mass scales, after begin of the first substep (mass_scaling.h).
+    void (*scale)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);
     void (*relax)(const WideTables&, std::size_t first, std::size_t last);

@@ -1,6 +1,6 @@
-// SIMD types in which the solver is compiled for SCREE_LANES contacts at once: one contact per lane.
+// SIMD types in which the laws are compiled for SCREE_LANES bodies, pairs, contacts or joints at once: one per lane.
 //
-// Every lane does what scalar code does for one contact, in the same order, and + - * round in a lane as in a float: so
+// Every lane does what scalar code does for one of them, in the same order, and + - * round in a lane as in a float: so
 // the bits are the same. The words of a record stay in order, so a record of lanes is the transpose of as many records,
 // and gather() and scatter() need not know any record.
 //
@@ -264,75 +264,154 @@ struct Indices {
     }
 };
 
-template <typename Record>
-SCREE_INLINE Record gather(const uint32_t* table, const Indices& indices) {
+#if SCREE_LANES >= 8
+// Eight words of each record at once: two blocks, in half as many loads and stores.
+using Row [[gnu::vector_size(32)]] = uint32_t;
+struct [[gnu::may_alias]] TwoBlocks {
+    Block first, second;
+};
+SCREE_INLINE Row row_at(const uint32_t* words) {
+    Row row;
+    __builtin_memcpy(&row, words, sizeof row);
+    return row;
+}
+#if SCREE_LANES == 8
+#define SCREE_ROWS(place, i) row_at(place(i))
+#define SCREE_EVEN 0, 1, 2, 3, 8, 9, 10, 11
+#define SCREE_ODD 4, 5, 6, 7, 12, 13, 14, 15
+#define SCREE_FRONT SCREE_EVEN
+#define SCREE_BACK SCREE_ODD
+#else
+#define SCREE_ROWS(place, i)                                                                                                  \
+    __builtin_shufflevector(row_at(place(2 * i - i % 4)), row_at(place(2 * i - i % 4 + 4)), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, \
+                            11, 12, 13, 14, 15)
+#define SCREE_EVEN 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27
+#define SCREE_ODD 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31
+#define SCREE_FRONT 0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23
+#define SCREE_BACK 8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31
+#endif
+// `place(lane)`: where the eight words of its record are.
+template <typename Place>
+SCREE_INLINE TwoBlocks gather_rows(const Place& place) {
+    const Block front = transposed({{SCREE_ROWS(place, 0), SCREE_ROWS(place, 1), SCREE_ROWS(place, 2), SCREE_ROWS(place, 3)}});
+    const Block back = transposed({{SCREE_ROWS(place, 4), SCREE_ROWS(place, 5), SCREE_ROWS(place, 6), SCREE_ROWS(place, 7)}});
+    TwoBlocks found;
+#pragma GCC unroll 4
+    for (int k = 0; k < 4; ++k) {
+        found.first.words[k] = __builtin_shufflevector(front.words[k], back.words[k], SCREE_EVEN);
+        found.second.words[k] = __builtin_shufflevector(front.words[k], back.words[k], SCREE_ODD);
+    }
+    return found;
+}
+// Writes nothing where `place(lane)` is null.
+template <typename Place>
+SCREE_INLINE void scatter_rows(const TwoBlocks& blocks, const Place& place) {
+    Block front, back;
+#pragma GCC unroll 4
+    for (int k = 0; k < 4; ++k) {
+        front.words[k] = __builtin_shufflevector(blocks.first.words[k], blocks.second.words[k], SCREE_FRONT);
+        back.words[k] = __builtin_shufflevector(blocks.first.words[k], blocks.second.words[k], SCREE_BACK);
+    }
+    front = transposed(front);
+    back = transposed(back);
+#pragma GCC unroll 16
+    for (int lane = 0; lane < lanes; ++lane) {
+        uint32_t* const to = place(lane);
+        if (to == nullptr) continue;
+        const Words& words = (lane < lanes / 2 ? front : back).words[lane % 4];
+#if SCREE_LANES == 8
+        const Row row = words;
+#else
+        const Row row = lane % 8 < 4 ? __builtin_shufflevector(words, words, 0, 1, 2, 3, 4, 5, 6, 7)
+                                     : __builtin_shufflevector(words, words, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
+        __builtin_memcpy(to, &row, sizeof row);
+    }
+}
+#endif
+
+// `place(lane)`: where its record is.
+template <typename Record, typename Place>
+SCREE_INLINE Record gather_from(const Place& place) {
     constexpr int blocks = sizeof(Record) / sizeof(Block);
     static_assert(sizeof(Record) % sizeof(Block) == 0);
     Record record;
     Block* const out = reinterpret_cast<Block*>(&record);
+    int block = 0;
+#if SCREE_LANES >= 8
 #pragma GCC unroll 16
-    for (int block = 0; block < blocks; ++block) {
+    for (; block + 1 < blocks; block += 2) {
+        const TwoBlocks two = gather_rows([&](int lane) { return place(lane) + 4 * block; });
+        out[block] = two.first;
+        out[block + 1] = two.second;
+    }
+#endif
+#pragma GCC unroll 16
+    for (; block < blocks; ++block) {
         Quad rows[SCREE_LANES];
 #pragma GCC unroll 16
-        for (int lane = 0; lane < lanes; ++lane) rows[lane] = quad_at(table + size_t{4 * blocks} * indices.of[lane] + 4 * block);
+        for (int lane = 0; lane < lanes; ++lane) rows[lane] = quad_at(place(lane) + 4 * block);
         out[block] = transposed({{joined(rows), joined(rows + 1), joined(rows + 2), joined(rows + 3)}});
     }
     return record;
 }
-
-// Lanes with index `nowhere` write nothing.
-template <typename Record>
-SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record& record) {
+// Lanes with a null place write nothing.
+template <typename Record, typename Place>
+SCREE_INLINE void scatter_to(const Record& record, const Place& place) {
     constexpr int blocks = sizeof(Record) / sizeof(Block);
     const Block* const in = reinterpret_cast<const Block*>(&record);
-    Block rows[blocks];
+    int block = 0;
+#if SCREE_LANES >= 8
 #pragma GCC unroll 16
-    for (int block = 0; block < blocks; ++block) rows[block] = transposed(in[block]);
+    for (; block + 1 < blocks; block += 2)
+        scatter_rows({in[block], in[block + 1]},
+                     [&](int lane) { return place(lane) == nullptr ? nullptr : place(lane) + 4 * block; });
+#endif
 #pragma GCC unroll 16
-    for (int lane = 0; lane < lanes; ++lane) {
-        if (indices.of[lane] == nowhere) continue;
-        uint32_t* const to = table + size_t{4 * blocks} * indices.of[lane];
+    for (; block < blocks; ++block) {
+        const Block rows = transposed(in[block]);
 #pragma GCC unroll 16
-        for (int block = 0; block < blocks; ++block) {
-            const Quad quad = quarter(rows[block].words[lane % 4], lane / 4);
+        for (int lane = 0; lane < lanes; ++lane) {
+            uint32_t* const to = place(lane);
+            if (to == nullptr) continue;
+            const Quad quad = quarter(rows.words[lane % 4], lane / 4);
             __builtin_memcpy(to + 4 * block, &quad, sizeof quad);
         }
     }
 }
 
+template <typename Record>
+SCREE_INLINE Record gather(const uint32_t* table, const Indices& indices) {
+    constexpr size_t words = sizeof(Record) / sizeof(Words);
+    return gather_from<Record>([&](int lane) { return table + words * indices.of[lane]; });
+}
+// Lanes with index `nowhere` write nothing.
+template <typename Record>
+SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record& record) {
+    constexpr size_t words = sizeof(Record) / sizeof(Words);
+    scatter_to(record, [&](int lane) { return indices.of[lane] == nowhere ? nullptr : table + words * indices.of[lane]; });
+}
+// Only the member `value` at that offset in a record of lanes.
+template <typename Record, typename Member>
+SCREE_INLINE void scatter_member(uint32_t* table, const Indices& indices, size_t at, Member value) {
+    constexpr size_t words = sizeof(Record) / sizeof(Words);
+    uint32_t of[SCREE_LANES];
+    static_assert(sizeof of == sizeof value);
+    __builtin_memcpy(of, &value, sizeof of);
+#pragma GCC unroll 16
+    for (int lane = 0; lane < lanes; ++lane)
+        if (indices.of[lane] != nowhere) table[words * indices.of[lane] + at / sizeof(Words)] = of[lane];
+}
+
 // Records at any places: of each lane the one at its pointer.
 template <typename Record, typename Pointers>
 SCREE_INLINE Record gather_at(const Pointers& pointers, size_t offset = 0) {
-    constexpr int blocks = sizeof(Record) / sizeof(Block);
-    static_assert(sizeof(Record) % sizeof(Block) == 0);
-    Record record;
-    Block* const out = reinterpret_cast<Block*>(&record);
-#pragma GCC unroll 16
-    for (int block = 0; block < blocks; ++block) {
-        Quad rows[SCREE_LANES];
-#pragma GCC unroll 16
-        for (int lane = 0; lane < lanes; ++lane) rows[lane] = quad_at(pointers[lane] + offset + 4 * block);
-        out[block] = transposed({{joined(rows), joined(rows + 1), joined(rows + 2), joined(rows + 3)}});
-    }
-    return record;
+    return gather_from<Record>([&](int lane) { return pointers[lane] + offset; });
 }
 // Lanes with a null pointer write nothing.
 template <typename Record>
 SCREE_INLINE void scatter_at(uint32_t* const* pointers, size_t offset, const Record& record) {
-    constexpr int blocks = sizeof(Record) / sizeof(Block);
-    const Block* const in = reinterpret_cast<const Block*>(&record);
-    Block rows[blocks];
-#pragma GCC unroll 16
-    for (int block = 0; block < blocks; ++block) rows[block] = transposed(in[block]);
-#pragma GCC unroll 16
-    for (int lane = 0; lane < lanes; ++lane) {
-        if (pointers[lane] == nullptr) continue;
-#pragma GCC unroll 16
-        for (int block = 0; block < blocks; ++block) {
-            const Quad quad = quarter(rows[block].words[lane % 4], lane / 4);
-            __builtin_memcpy(pointers[lane] + offset + 4 * block, &quad, sizeof quad);
-        }
-    }
+    scatter_to(record, [&](int lane) { return pointers[lane] == nullptr ? nullptr : pointers[lane] + offset; });
 }
 
 // Broadcasts one record.

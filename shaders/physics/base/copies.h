@@ -18,7 +18,7 @@ CONSTANT uint COPY_BREAKS = 2u;  // some body breaks in this step
 LAW bool has_copies(Parameters parameters) {
     return parameters.bodies_of_copy != 0u;
 }
-#ifndef SCREE_LANES
+#ifndef SCREE_LANES  // lanes have no division of integers
 // Of integers, hence exact: the one division of the laws (tests/house/subset.cpp).
 LAW uint quotient(uint dividend, uint divisor) {
     return dividend / divisor;

@@ -1,14 +1,14 @@
-// The common subset of GLSL and C++ in which shaders/physics is written. In C++ glm provides GLSL's types; for the
-// solver (contact_solver.h and its includes) compute/cpu/simd/simd_types.h provides types that hold several contacts,
-// one per lane.
+// The common subset of GLSL and C++ in which shaders/physics is written. In C++ glm provides GLSL's types; for the laws that
+// compute/cpu/simd/simd_stages.cpp includes, simd_types.h beside it provides types that hold several contacts, pairs or
+// bodies, one per lane.
 //
 // Rules (tested): literals end in f or u; no operation on two constants (GLSL compilers fold them in double precision);
 // no `/`, sqrt, dot, normalize, mix, fma, min, max on floats (use arithmetic.h); a vec3 member is followed by a scalar;
 // no arrays of vec3; quaternions are vec4 (x, y, z, w); no swizzles; functions take values and return values.
 //
-// In the solver a float, uint or bool may therefore hold one value per lane, and all lanes take the same path. Code
+// In those laws a float, uint or bool may therefore hold one value per lane, and all lanes take the same path. Code
 // selects with choose(condition, a, b), and branches only on none(condition), to skip what no lane needs. An int is the
-// same in all lanes.
+// same in all lanes, but as a coordinate of an ivec3. What has other branches is between #ifndef SCREE_LANES and #endif.
 #ifndef SCREE_PHYSICS_DIALECT_H
 #define SCREE_PHYSICS_DIALECT_H
 

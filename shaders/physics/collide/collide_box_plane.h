@@ -22,8 +22,7 @@ LAW ManifoldBuffer collide_box_plane(BodyProperties a, Pose pose_a, BodyProperti
         vec3 signs = choose(face == 0u, of_x, choose(face == 1u, of_y, of_z));
         vec3 corner = signs * a.size;
         float separation = height + dot3(normal, corner);
-        uint feature =
-            choose(signs.x > 0.0f, 1u, 0u) + choose(signs.y > 0.0f, 2u, 0u) + choose(signs.z > 0.0f, 4u, 0u);
+        uint feature = choose(signs.x > 0.0f, 1u, 0u) + choose(signs.y > 0.0f, 2u, 0u) + choose(signs.z > 0.0f, 4u, 0u);
         vec3 point = rotate(pose_a.orientation, corner) - b.size * (0.5f * separation);
         touch = with_point(touch, point, separation, feature, margin);
     }

@@ -150,8 +150,8 @@ LAW Stretch stretch_along_box(vec3 normal, vec3 centre, vec3 half_axis, vec3 ext
     uint edge = largest_of(-slant);
     vec3 beside = turned(half_axis, edge);
     float parting = 0.1f * radius;
-    bool along_edge = !over_face && coordinate(slant, edge) < 0.02f &&
-                      beside.y * beside.y + beside.z * beside.z < parting * parting;
+    bool along_edge =
+        !over_face && coordinate(slant, edge) < 0.02f && beside.y * beside.y + beside.z * beside.z < parting * parting;
     if (!none(along_edge)) {
         Stretch part = clipped(all, coordinate(centre, edge), beside.x, coordinate(extents + slack, edge));
         stretch.low = choose(along_edge, part.low, stretch.low);

@@ -106,8 +106,7 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
     if (!none(listed)) {
         vec3 extent = bounds.upper - bounds.lower;
         uint level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
-        uint bucket =
-            bucket_of(cell_of(bounds.lower, bounds.upper, level, parameters.inverse_cell), level, parameters.buckets);
+        uint bucket = bucket_of(cell_of(bounds.lower, bounds.upper, level, parameters.inverse_cell), level, parameters.buckets);
         bounds.level = choose(listed, level, bounds.level);
         bounds.bucket = choose(listed, bucket, bounds.bucket);
     }

@@ -124,7 +124,7 @@ LAW ManifoldBuffer seen_from(bool moves, ManifoldBuffer touch, vec3 d) {
     return touch;
 }
 
-// A manifold of (first, second) as that of (second, first), where it is to be; d = position of second - position of first (m).
+// A manifold of (first, second) as that of (second, first), if `flips`; d = position of second - position of first (m).
 LAW ManifoldBuffer flipped(bool flips, ManifoldBuffer touch, vec3 d) {
     touch.manifold.normal = choose(flips, -touch.manifold.normal, touch.manifold.normal);
     return seen_from(flips, touch, d);

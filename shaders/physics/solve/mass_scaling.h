@@ -94,17 +94,19 @@ LAW float next_mass_scale(BodyMass mass, BodyProperties properties, Velocity vel
     float pressing = normal_impulses_of(mass.split_state) * properties.inverse_mass, before = mass_scale(mass, properties);
     float weight = pressing_of_scale(parameters);
     bool bears = has_weight(parameters) && properties.joints == NONE && pressing > weight;
-    if (!bears && (before == 1.0f || contact_count_of(mass.split_state) == 0.0f)) return 1.0f;
-    float asked = bears ? smaller(pressing * reciprocal(weight), GREATEST_SCALE) : 1.0f;
+    bool has_none = !bears && (before == 1.0f || contact_count_of(mass.split_state) == 0.0f);
+    if (none(!has_none)) return 1.0f;
+    float asked = choose(bears, smaller(pressing * reciprocal(weight), GREATEST_SCALE), 1.0f);
     bool crushed = asked > CRUSHING_LOAD * before && sinks(properties, velocity, gravity, CRUSHING_SPEED);
     bool falls = !(asked > FALLING_LOAD * before) && sinks(properties, velocity, gravity, FALLING_SPEED);
     bool rests = bears && !falls && !moves_across(properties, velocity, gravity);
-    if (!rests || asked < LEAST_SCALE * (before > 1.0f ? KEPT_FROM : 1.0f)) asked = 1.0f;
-    if (rests && asked > KEPT_FROM * before && asked < KEPT_TO * before) return before;
+    bool is_little = asked < LEAST_SCALE * choose(before > 1.0f, KEPT_FROM, 1.0f);
+    asked = choose(!rests || is_little, 1.0f, asked);
+    bool stays = rests && asked > KEPT_FROM * before && asked < KEPT_TO * before;
     uint code = floatBitsToUint(before) >> SCALE_SHIFT, aim = floatBitsToUint(asked) >> SCALE_SHIFT;
-    if (code < aim) return scale_from(code + (crushed ? CRUSHED_GROWTH : SCALE_GROWTH));
-    uint decay = falls ? FALLING_DECAY : SCALE_DECAY;
-    return scale_from(code > aim + decay ? code - decay : aim);
+    uint growth = choose(crushed, CRUSHED_GROWTH, SCALE_GROWTH), decay = choose(falls, FALLING_DECAY, SCALE_DECAY);
+    uint next = choose(code < aim, code + growth, choose(code > aim + decay, code - decay, aim));
+    return choose(has_none, 1.0f, choose(stays, before, scale_from(next)));
 }
 // The motion of a body with a scale, in this step. `mass`: as of next_mass_scale(), with the scale before that.
 LAW ScaledMotion next_scaled_motion(ScaledMotion motion, BodyMass mass, BodyProperties properties, Velocity velocity,
@@ -112,8 +114,8 @@ LAW ScaledMotion next_scaled_motion(ScaledMotion motion, BodyMass mass, BodyProp
     float pressing = normal_impulses_of(mass.split_state) * properties.inverse_mass, before = mass_scale(mass, properties);
     float asked = smaller(pressing * reciprocal(pressing_of_scale(parameters)), GREATEST_SCALE);
     bool begins = before == 1.0f, is_loaded = asked > ADDED_LOAD * before;
-    if (begins) motion.linear = velocity.linear;
-    motion.waits = begins || is_loaded ? WAITING_STEPS : larger(0.0f, motion.waits - 1.0f);
+    motion.linear = choose(begins, velocity.linear, motion.linear);
+    motion.waits = choose(begins || is_loaded, WAITING_STEPS, larger(0.0f, motion.waits - 1.0f));
     return motion;
 }
 

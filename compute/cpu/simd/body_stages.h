@@ -1,0 +1,199 @@
+// Stages over bodies, one per lane: bounds, the two stages of a substep, mass scales, and the end of a step. For
+// compute/cpu/simd/simd_stages.cpp.
+#pragma once
+
+#include "compute/cpu/simd/lane_items.h"
+
+LAWS_BEGIN
+
+namespace {
+
+// The marks of these items.
+SCREE_INLINE void set_marks(const WideTables& tables, std::size_t first, std::size_t last, Uint marks) {
+    for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+        tables.marks[first + lane] = static_cast<std::uint8_t>(marks.v[lane]);
+}
+
+void bound(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const Pose pose = gather<Pose>(tables.poses, bodies);
+        const Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        const BodyForces load = gather<BodyForces>(tables.forces, bodies);
+        scatter(tables.bounds, live, bounds_of(properties, 0.0f, pose, velocity, load, p));
+        scatter(tables.masses, live, mass_with_scale_of(gather<BodyMass>(tables.masses, bodies), properties, pose.orientation));
+        set_marks(tables, first, last, choose(will_sweep(properties, velocity, p), 1u, 0u));
+    }
+}
+
+// Sums each body's slots in their order. A slot is eight floats, added as one vector.
+SCREE_INLINE VelocityDelta sums_of_slots(const WideTables& tables, const Indices& bodies) {
+    using Eight [[gnu::vector_size(32)]] = float;
+    std::uint32_t sums[8 * SCREE_LANES];
+    for (int lane = 0; lane < lanes; ++lane) {
+        const std::uint32_t body = bodies.of[lane];
+        Eight sum = {};
+        for (std::uint32_t slot = body == 0 ? 0 : tables.slot_ends[body - 1]; slot < tables.slot_ends[body]; ++slot) {
+            Eight change;
+            __builtin_memcpy(&change, tables.slots + std::size_t{8} * slot, sizeof change);
+            sum += change;
+        }
+        __builtin_memcpy(sums + 8 * lane, &sum, sizeof sum);
+    }
+    return gather<VelocityDelta>(sums, Indices(lane_numbers()));
+}
+
+SCREE_INLINE Uint steps_of(const WideTables& tables, const Indices& bodies) {
+    if (tables.ages == nullptr) return tables.steps;
+    Words words;
+    for (int lane = 0; lane < lanes; ++lane) words[lane] = tables.ages[bodies.of[lane]];
+    return words;
+}
+
+// Of a group of bodies what stays through a step, from begin of the first substep on.
+struct KeptBodies {
+    vec3 acceleration;
+    Float linear_damping;
+    vec3 angular_acceleration;
+    Float angular_damping;
+    vec3 inverse_inertia;
+    Float inverse_mass;
+    Uint motion, joints;
+};
+static_assert(sizeof(KeptBodies) == reference::words_of_body * sizeof(Words));
+
+// As records, of which the other members are not read.
+struct BodyGroup {
+    BodyProperties properties;
+    BodyForces load;
+
+    SCREE_INLINE BodyGroup(const WideTables& tables, std::size_t first, const Indices& bodies, bool afresh) {
+        KeptBodies& kept = reinterpret_cast<KeptBodies*>(tables.body_groups)[first / lanes];
+        if (afresh) {
+            properties = gather<BodyProperties>(tables.properties, bodies);
+            load = gather<BodyForces>(tables.forces, bodies);
+            kept = {load.acceleration,          properties.linear_damping, load.angular_acceleration, properties.angular_damping,
+                    properties.inverse_inertia, properties.inverse_mass,   properties.motion,         properties.joints};
+            return;
+        }
+        load.acceleration = kept.acceleration;
+        load.angular_acceleration = kept.angular_acceleration;
+        properties.linear_damping = kept.linear_damping;
+        properties.angular_damping = kept.angular_damping;
+        properties.inverse_inertia = kept.inverse_inertia;
+        properties.inverse_mass = kept.inverse_mass;
+        properties.motion = kept.motion;
+        properties.joints = kept.joints;
+    }
+};
+
+void begin(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last));
+        const BodyGroup group(tables, first, bodies, tables.first);
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        Velocity change, velocity = gather<Velocity>(tables.velocities, bodies);
+        change.linear = sum.linear;
+        change.angular = sum.angular;
+        const Indices live = bodies.only(living(first, last));
+        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+        const Float scale = mass_scale(mass, group.properties);
+        const Bool is_scaled = scale > 1.0f;
+        if (!none(is_scaled)) {
+            const ScaledChange scaled =
+                with_acceleration(change, velocity, gather<ScaledMotion>(tables.scaled_motions, bodies), group.load, scale, p);
+            change = scaled.change;
+            scatter(tables.scaled_motions, live.only(is_scaled), scaled.motion);
+        }
+        velocity = integrate_velocity(velocity, change, scaled_forces(group.load, scale), group.properties, p);
+        Float state = mass.split_state;
+        if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
+        state = split_state_after(state, sum.weight, sum.normal_impulse);
+        scatter(tables.velocities, live, velocity);
+        scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, split_state), state);
+    }
+}
+
+void scale(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+        const Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        const Float scale = next_mass_scale(mass, properties, velocity, p);
+        const Bool is_scaled = scale > 1.0f, changes = scale != mass_scale(mass, properties);
+        if (!none(is_scaled)) {
+            const ScaledMotion motion = gather<ScaledMotion>(tables.scaled_motions, bodies);
+            scatter(tables.scaled_motions, live.only(is_scaled), next_scaled_motion(motion, mass, properties, velocity, p));
+        }
+        if (none(changes)) continue;
+        const Pose pose = gather<Pose>(tables.poses, bodies);
+        scatter(tables.masses, live.only(changes), mass_with_scale(mass, properties, pose.orientation, scale));
+    }
+}
+
+void move(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last));
+        const BodyGroup group(tables, first, bodies, false);
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        velocity.linear = velocity.linear + sum.linear;
+        velocity.angular = velocity.angular + sum.angular;
+        const Pose before = gather<Pose>(tables.poses, bodies);
+        RigidState after = integrate(before, velocity, group.properties, p.h);
+        const Indices live = bodies.only(living(first, last));
+        const Bool sound = is_sound(after.pose) && is_sound(after.velocity);
+        if (!none(!sound)) {
+            scatter_member<BodyForces>(tables.forces, live.only(!sound), offsetof(BodyForces, kept), Float(UNSOUND));
+            after = moved_soundly(sound, before, after);
+        }
+        if (tables.impacts)
+            scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impacts),
+                                       impacts_of(sum.weight, group.properties));
+        if (!none(sum.weight > 0.0f))
+            for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+                if (sum.weight.v[lane] > 0) tables.impact_debts[bodies.of[lane]] = sum.normal_impulse.v[lane];
+        scatter(tables.poses, live, after.pose);
+        scatter(tables.velocities, live, after.velocity);
+        const Bool turns = !has_isotropic_inertia(group.properties);
+        if (none(turns)) continue;
+        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+        scatter(tables.masses, live.only(turns), mass_with_scale_of(mass, group.properties, after.pose.orientation));
+    }
+}
+
+void finish(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        Velocity velocity = gather<Velocity>(tables.velocities, bodies);
+        velocity.linear = flush_tiny(velocity.linear + sum.linear);
+        velocity.angular = flush_tiny(velocity.angular + sum.angular);
+        const Bool sound = is_sound(velocity), limited = is_spin_limited(velocity, p);
+        velocity = held_velocity(velocity, p);
+        scatter(tables.velocities, live, velocity);
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const Bool fast = was_fast(properties, gather<Bounds>(tables.bounds, bodies).sweep, gather<Pose>(tables.poses, bodies));
+        set_marks(tables, first, last,
+                  choose(sum.weight != 0.0f, Uint(reference::carries_contacts), Uint(0u)) |
+                      choose(sound, Uint(0u), Uint(reference::is_unsound)) |
+                      choose(limited, Uint(reference::is_spin_limited), Uint(0u)) |
+                      choose(fast, Uint(reference::was_fast), Uint(0u)));
+    }
+}
+
+}  // namespace
+
+LAWS_END

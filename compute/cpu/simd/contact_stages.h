@@ -1,0 +1,224 @@
+// Stages over contacts, one per lane: their preparation with the warm start from the last step, and the two passes of a substep.
+// For compute/cpu/simd/simd_stages.cpp.
+#pragma once
+
+#include "compute/cpu/simd/contact_group.h"
+
+LAWS_BEGIN
+
+namespace {
+
+// What a group of contacts has from the last step, and from the manifolds of this one.
+struct Inherited {
+    Impulse impulse;
+    Float load, unrest;
+    Uint slot_a, slot_b;
+};
+constexpr std::size_t words_of_impulse = sizeof(Impulse) / sizeof(Words);
+constexpr std::uint32_t zero_impulse[words_of_impulse] = {};
+
+SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contacts, const BodyProperties& ta,
+                                 const BodyProperties& tb, const Contact& contact) {
+    Words pair_of, slot_a, slot_b;
+    for (int lane = 0; lane < lanes; ++lane) {
+        pair_of[lane] = tables.contact_pairs[contacts.of[lane]];
+        slot_a[lane] = tables.contact_slots[2 * contacts.of[lane]];
+        slot_b[lane] = tables.contact_slots[2 * contacts.of[lane] + 1];
+    }
+    const Indices pairs{Uint(pair_of)};
+    const Pair pair = gather<Pair>(tables.pairs, pairs);
+    const Bool known = pair.previous != Uint(NONE), carried = is_carried_forward(pair.pair_type), matched = known && !carried;
+    const std::uint32_t* places[SCREE_LANES];
+    for (int lane = 0; lane < lanes; ++lane)
+        places[lane] = known.v[lane] != 0 ? tables.impulses_before + words_of_impulse * pair.previous.v[lane] : zero_impulse;
+    const Impulse was = gather_at<Impulse>(places);
+    Inherited found{no_impulse(contact.center_offset), contact.load, contact.unrest, slot_a, slot_b};
+    found.impulse.separation = separations_of(contact);
+    if (!none(carried)) {
+        const Impulse now = carried_impulse(contact, was, gather<Manifold>(tables.manifolds, pairs));
+        found.impulse = none(!carried) ? now : choose_record(carried, now, found.impulse);
+        found.load = choose(carried, load_since(contact, was, ta, found.slot_a, tb, found.slot_b), contact.load);
+    }
+    if (!none(matched)) {
+        const Contact before = gather<Contact>(tables.contacts_before, Indices(choose(matched, pair.previous, Uint(0u))));
+        Impulse now = warm_start_from(contact, was, matches_of(contact, before, match_radius(contact, before, ta, tb)));
+        now.separation = found.impulse.separation;
+        found.impulse = choose_record(matched, now, found.impulse);
+        found.load = choose(matched, load_since(before, was, ta, found.slot_a, tb, found.slot_b), found.load);
+        found.unrest = choose(matched, before.unrest, found.unrest);
+    }
+    found.impulse.normal_sum = normal_impulse(found.impulse);
+    return found;
+}
+
+// What the next group of contacts reads of the tables.
+SCREE_INLINE void prefetch_inherited(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (last < first + lanes) return;
+    const auto fetch = [](const std::uint32_t* table, std::size_t words, std::size_t record) {
+        const char* const begin = reinterpret_cast<const char*>(table + words * record);
+        for (std::size_t line = 0; line < 4 * words; line += 64) __builtin_prefetch(begin + line);
+    };
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::uint32_t contact = tables.items[first + lane], index = tables.contact_pairs[contact];
+        constexpr std::size_t words_of_pair = sizeof(Pair) / sizeof(Words);
+        const std::uint32_t previous = tables.pairs[words_of_pair * index + offsetof(Pair, previous) / sizeof(Words)];
+        fetch(tables.contacts, sizeof(Contact) / sizeof(Words), contact);
+        fetch(tables.manifolds, sizeof(Manifold) / sizeof(Words), index);
+        if (previous != nowhere) fetch(tables.impulses_before, words_of_impulse, previous);
+    }
+}
+
+void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        prefetch_inherited(tables, first + lanes, last);
+        const Indices contacts(listed(tables.items, first, last));
+        Contact contact = gather<Contact>(tables.contacts, contacts);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
+        const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
+        const Inherited from = inherited(tables, contacts, ta, tb, contact);
+        contact.unrest = from.unrest;
+        Constraint c =
+            constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
+        const Indices a(c.a), b(c.b);
+        const VelocityPair now{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)};
+        const Float unrest = unrest_of(contact, c, ta, tb, now, p);
+        c = with_unrest(c, unrest);
+        const Bool live = living(first, last);
+        const Indices written = contacts.only(live);
+        scatter(tables.constraints, written, c);
+        scatter_member<Contact>(tables.contacts, written, offsetof(Contact, unrest), unrest);
+        scatter_member<Contact>(tables.contacts, written, offsetof(Contact, load), from.load);
+        Kept& prepared = kept(tables, first);
+        copy_record(prepared.c, c);
+        copy_record(prepared.impulse, from.impulse);
+        if (tables.plain) narrow(prepared.impulse);
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, a), from.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, b), from.impulse, p);
+        const Float weight = is_active(c, from.impulse, now, p);
+        const VelocityPair share = to_body_deltas(now, now, ma, mb);
+        to_slots(tables, live, c, warm_start(c, from.impulse, share, ma, mb), weight, from.impulse.normal_sum);
+    }
+}
+
+void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.warm_starts) return warm_start_and_prepare(tables, first, last);
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices contacts(listed(tables.items, first, last));
+        const Contact contact = gather<Contact>(tables.contacts, contacts);
+        Kept& prepared = kept(tables, first);
+        prepared.c = gather<Constraint>(tables.constraints, contacts);
+        prepared.impulse = gather<Impulse>(tables.impulses, contacts);
+        const Bool waits = point_count(prepared.c) == 0u;
+        if (!none(waits)) {
+            const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
+            const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
+            const Constraint was = prepared.c;
+            const VelocityPair now{gather<Velocity>(tables.velocities, Indices(was.a)),
+                                   gather<Velocity>(tables.velocities, Indices(was.b))};
+            Constraint c = constraint_between(contact, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
+            const Float unrest = unrest_of(contact, c, ta, tb, now, p);
+            c = with_unrest(c, unrest);
+            prepared.c = none(!waits) ? c : choose_record(waits, c, was);
+            scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
+            scatter_member<Contact>(tables.contacts, contacts.only(living(first, last) && waits), offsetof(Contact, unrest),
+                                    unrest);
+        }
+        const Group<false> group(tables, first, last);
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
+        const Float weight = is_active(group.c, group.impulse, group.before, p);
+        const VelocityPair share = to_body_deltas(group.before, group.before, ma, mb);
+        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), weight, group.impulse.normal_sum);
+        if (tables.plain) narrow(prepared.impulse);
+    }
+}
+
+template <bool plain>
+SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        prefetch_next(tables, first, last);
+        const Group<plain> group(tables, first, last);
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
+        const SolveResult after =
+            solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
+        const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
+        group.keep_solved(after.impulse);
+        if (tables.watched) group.give_back(tables, first, last);
+        group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
+    }
+}
+void solve(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.plain)
+        solve_groups<true>(tables, first, last);
+    else
+        solve_groups<false>(tables, first, last);
+}
+
+// physics::impact_mass, reading forces only if a lane has an impact.
+SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
+    const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+    if (none(is_impact(impulse))) return split_mass(mass, impulse, p);
+    return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
+}
+
+// physics::part_of_debts, likewise.
+template <bool plain>
+SCREE_INLINE Float debts(const WideTables& tables, const Group<plain>& group, const Mass& a, const Mass& b) {
+    if (none(is_impact(group.impulse))) return 0.0f;
+    Float of_a, of_b;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        of_a.v[lane] = tables.impact_debts[group.a.of[lane]];
+        of_b.v[lane] = tables.impact_debts[group.b.of[lane]];
+    }
+    return part_of_debts(group.impulse, of_a, gather<BodyForces>(tables.forces, group.a), a, of_b,
+                         gather<BodyForces>(tables.forces, group.b), b);
+}
+
+// Adds this substep's normal impulses to the contacts' sums over the step.
+SCREE_INLINE void feel(const WideTables& tables, const Indices& contacts, const Impulse& impulse, std::size_t items) {
+    const Float carried = solved_impulse(impulse);
+    for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
+        float& sum = tables.carried[contacts.of[lane]];
+        sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
+    }
+}
+
+template <bool plain>
+SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        prefetch_next(tables, first, last);
+        const Group<plain> group(tables, first, last);
+        const Impulse& was = group.impulse;
+        const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
+        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
+                                                debts(tables, group, ma, mb), 1.0f, tables.last ? 1.0f : 0.0f, p);
+        if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
+        Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
+        impulse.normal_sum = normal_impulse(impulse);
+        VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
+        const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, ma, mb, p);
+        if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
+        group.keep(impulse);
+        if (tables.last || tables.watched) group.give_back(tables, first, last);
+        group.hand_out(tables, share, weight, impulse.normal_sum);
+    }
+}
+void relax(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.plain)
+        relax_groups<true>(tables, first, last);
+    else
+        relax_groups<false>(tables, first, last);
+}
+
+}  // namespace
+
+LAWS_END
