@@ -173,7 +173,7 @@ void put_into_quarantine(State& state, std::size_t i, float mark) {
 
 // ---- compute_bounds
 
-// Counts a row whose bounds and mass are known in its cell, and notes what it does.
+// Counts a row with known bounds in its grid cell, and notes for later stages its level and whether it moves, sleeps or sweeps.
 void list_in_grid(State& state, const Threads& threads, std::size_t i, bool sweeps) {
     physics::Counts& counts = state.counted();
     const physics::uint sleep_steps = state.fixed().sleep_steps;
@@ -256,7 +256,7 @@ bool end_body(State& state, std::size_t i, unsigned marks) {
     return true;
 }
 
-// The same as the lanes' stage finish().
+// Scalar version of WideStages::finish().
 unsigned finish(State& state, std::size_t i) {
     const Sum sum = sum_of_slots(state, i);
     physics::Velocity& velocity = state.velocities[i];
@@ -330,7 +330,7 @@ void pose_parts(State& state, const Threads& threads, std::uint32_t) {
 
 void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
-    const WideTables all_tables = wide_tables(state, state.movable_bodies);  // other items below
+    const WideTables all_tables = wide_tables(state, state.movable_bodies);  // of which ranges set the items
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
         std::array<std::uint32_t, 128> rows;
         std::array<std::uint8_t, rows.size()> sweeping;

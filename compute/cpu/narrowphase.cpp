@@ -43,8 +43,8 @@ physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyPro
     return laws_of_convex[pair_type - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
 }
 
-// Makes the manifold of a part relative to its body.
-void begin_at_body(State& state, std::size_t index) {
+// Moves the points of a part's manifold from the part's centre to that of its body.
+void relate_to_body(State& state, std::size_t index) {
     const std::size_t a = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
     if (a == body) return;
     const physics::ManifoldBuffer touch{state.pair_manifolds[index], state.point_counts[index]};
@@ -163,7 +163,7 @@ void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
             collide_boxes(state, *wide, first + begin, first + end);
         else
             wide->collide(wide_tables(state, state.pairs_by_type), pair_type, first + begin, first + end);
-        for (std::size_t i = first + begin; has_parts && i < first + end; ++i) begin_at_body(state, state.pairs_by_type[i]);
+        for (std::size_t i = first + begin; has_parts && i < first + end; ++i) relate_to_body(state, state.pairs_by_type[i]);
         count_found(state, first + begin, first + end);
     });
 }
