@@ -15,6 +15,7 @@
 #include "compute/step/memory_order.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/joint_axis.h"
 
 namespace scree {
@@ -78,6 +79,12 @@ void add_joints(const State& state, std::size_t first, std::size_t count, Statis
     }
 }
 
+// Whether a contact ended within the last step by sliding off (contact_solver.h).
+bool has_slid_off(const State& state, const physics::Contact& contact, const physics::Impulse& impulse) {
+    const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
+    return impulse.slide_distance > physics::slide_limit_of(contact, ta, tb, physics::anchor_of(contact, ta, tb));
+}
+
 }  // namespace
 
 ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy) {
@@ -87,11 +94,11 @@ ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy) 
         if (copy && state.copy_of(state.contacts[i].a) != *copy) continue;
         if (!state.presence.empty() && !state.tells_of(state.contacts[i])) continue;
         ++sums.manifolds;
-        // Contacts that ended within the last step by sliding off (contact_solver.h).
-        if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
-        const physics::uint count = state.contacts[i].count;
+        const physics::Contact& contact = state.contacts[i];
+        if (has_slid_off(state, contact, state.impulses[i])) continue;
+        const physics::uint count = contact.count;
         sums.points += count;
-        const bool at_rest = rests(state.constraints[i].a) && rests(state.constraints[i].b);
+        const bool at_rest = rests(state.body_of(contact.a)) && rests(state.body_of(contact.b));
         for (physics::uint k = 0; k < count; ++k) {
             const double separation = state.impulses[i].separation[static_cast<int>(k)];
             if (separation >= 0) continue;

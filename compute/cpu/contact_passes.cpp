@@ -32,14 +32,17 @@ void hand_out(State& state, const physics::Constraint& c, const physics::Velocit
 }
 
 // Each body's quiet steps, for the other's sleep.
-void show_quiet_steps(State& state, const physics::Constraint& c) {
-    const auto shown_by = [&](std::uint32_t body) {
-        return physics::is_driven(c)
-                   ? physics::BESIDE_MOVING
-                   : physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
+void show_quiet_steps(State& state, std::size_t i, bool has_surfaces) {
+    const bool is_driven = has_surfaces && physics::is_driven(state.constraints[i]);
+    const auto show = [&](std::uint32_t slot, std::uint32_t row_of_other) {
+        if (slot == physics::NONE) return;
+        const std::uint32_t other = state.body_of(row_of_other);
+        state.neighbours_quiet[slot] = is_driven ? physics::BESIDE_MOVING
+                                                 : physics::quiet_steps_shown(state.properties[other].motion,
+                                                                              state.velocities[other], state.sleep_states[other]);
     };
-    if (c.slot_a != physics::NONE) state.neighbours_quiet[c.slot_a] = shown_by(c.b);
-    if (c.slot_b != physics::NONE) state.neighbours_quiet[c.slot_b] = shown_by(c.a);
+    show(state.contact_slots[2 * i], state.contacts[i].b);
+    show(state.contact_slots[2 * i + 1], state.contacts[i].a);
 }
 
 // Calls work(contact) for those of this pass.
@@ -298,8 +301,10 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const auto alone = [&](std::size_t i) { relax_block(state, i, pass); };
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    if (last && state.fixed().sleep_steps != physics::NO_SLEEP)
-        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
+    if (last && state.fixed().sleep_steps != physics::NO_SLEEP) {
+        const bool has_surfaces = state.features().surfaces;
+        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, i, has_surfaces); });
+    }
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();

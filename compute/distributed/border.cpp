@@ -14,7 +14,8 @@ void Border::find(State& state) {
     if (blocks == 0 || at_border.empty()) return;
     touches_ghost_.assign(state.fixed().first_part, false);
     for (const std::uint32_t contact : at_border)
-        for (const std::uint32_t row : {state.constraints[contact].a, state.constraints[contact].b}) touches_ghost_[row] = true;
+        for (const std::uint32_t row : {state.contacts[contact].a, state.contacts[contact].b})
+            touches_ghost_[state.body_of(row)] = true;
     state.border_blocks.resize(blocks);
     for (std::uint32_t i = 0; i < blocks; ++i) {
         const physics::JointBlock& block = state.joint_blocks[i];

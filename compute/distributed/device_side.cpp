@@ -109,7 +109,7 @@ void DeviceSide::fetch_contacts() {
     fetch_counts();
     fetch({Table::first_contacts});
     const std::size_t count = state_->counted().contacts;
-    TableRanges wanted{{Table::contacts, 0, count}, {Table::impulses, 0, count}, {Table::constraints, 0, count}};
+    TableRanges wanted{{Table::contacts, 0, count}, {Table::impulses, 0, count}};
     if (state_->features().sums) wanted.push_back({Table::carried, 0, count});
     fetch(wanted);
 }
@@ -117,7 +117,7 @@ void DeviceSide::fetch_contacts() {
 void DeviceSide::store_contacts() {
     const std::size_t count = state_->counted().contacts;
     store_counts();
-    store({{Table::contacts, 0, count}, {Table::impulses, 0, count}, {Table::constraints, 0, count}});
+    store({{Table::contacts, 0, count}, {Table::impulses, 0, count}});
     store({Table::first_contacts});
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 struct TracedContact {
     OwnedContact contact;
-    float slide_limit = 0, carried = 0;
+    float carried = 0;
 };
 
 // The records of owned rows in a range of a table of bodies.
@@ -42,7 +42,6 @@ void gather_contacts(State& state, Exchange& exchange) {
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
             if (state.tells_of(state.contacts[k]))
                 put(said, TracedContact{{row, state.contacts[k], state.impulses[k]},
-                                        state.constraints[k].slide_limit,
                                         k < state.carried.size() ? state.carried[k] : 0.0f});
     std::vector<TracedContact> all;
     for (const Bytes& told : exchange.gather(said))
@@ -56,13 +55,7 @@ void gather_contacts(State& state, Exchange& exchange) {
     contacts.reserve(all.size());
     for (const TracedContact& one : all) contacts.push_back(one.contact);
     merge_contacts(state, contacts, [](const physics::Contact&) { return false; });
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        physics::Constraint& constraint = state.constraints[k];
-        constraint.a = state.body_of(state.contacts[k].a);
-        constraint.b = state.body_of(state.contacts[k].b);
-        constraint.slide_limit = all[k].slide_limit;
-        if (k < state.carried.size()) state.carried[k] = all[k].carried;
-    }
+    for (std::size_t k = 0; k < std::min(all.size(), state.carried.size()); ++k) state.carried[k] = all[k].carried;
 }
 
 void gather_joints(State& state, Exchange& exchange) {
@@ -114,7 +107,6 @@ void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges) 
                 break;
             case contacts:
             case impulses:
-            case constraints:
             case first_contacts:
             case carried:
                 any_contacts = true;

@@ -50,8 +50,8 @@ public:
             if (from_[row] != physics::NONE) to_[from_[row]] = row;
     }
     // Contacts are those of the last step, before the tables are turned over.
-    void move(bool with_constraints) {
-        move_contacts(with_constraints);
+    void move() {
+        move_contacts();
         state_.slot_ends = counted_anew(state_.slot_ends, [](const auto& ends, std::uint32_t row) {
             return std::pair(row == 0 ? 0u : ends[row - 1], ends[row]);
         });
@@ -103,10 +103,9 @@ private:
         }
         return starts;
     }
-    void move_contacts(bool with_constraints) {
+    void move_contacts() {
         std::vector<physics::uint> starts = counted_anew(
             state_.first_contacts, [](const auto& first, std::uint32_t row) { return std::pair(first[row], first[row + 1]); });
-        std::vector<physics::Constraint> constraints(with_constraints ? starts.back() : 0);
         for (std::size_t row = 0; row < from_.size(); ++row) {
             if (starts[row] == starts[row + 1]) continue;
             std::uint32_t old = state_.first_contacts[from_[row]];
@@ -115,13 +114,8 @@ private:
                 follow(state_.contacts_before[k].a);
                 follow(state_.contacts_before[k].b);
                 state_.impulses_before[k] = state_.impulses[old];
-                if (!with_constraints) continue;
-                constraints[k] = state_.constraints[old];
-                follow(constraints[k].a);
-                follow(constraints[k].b);
             }
         }
-        std::copy(constraints.begin(), constraints.end(), state_.constraints.begin());
         state_.turn_over();
         state_.counted().contacts = starts.back();
         state_.first_contacts.swap(starts);
@@ -166,7 +160,7 @@ void Share::make(State& state) {
     std::vector<std::uint32_t> rows(state.body_count, physics::NONE);
     for (std::uint32_t row = 0; row < first_free; ++row) rows[state.id_of(from[row])] = row;
     if (!state.reordered()) std::iota(state.ids.begin(), state.ids.end(), 0u);
-    Rearrangement(state, std::move(from), first_part).move(false);
+    Rearrangement(state, std::move(from), first_part).move();
     state.first_part_id = first_part_id;
     state.assign_rows(std::move(rows));
     free_.resize(first_part - first_free);
@@ -192,7 +186,7 @@ void Share::end(State& state, Exchange& exchange) {
     std::vector<std::uint32_t> from(first_part, physics::NONE);
     for (std::uint32_t id = 0; id < state.body_count; ++id) from[id] = state.row_of(id);
     append_parts(state, from);
-    Rearrangement(state, std::move(from), first_part).move(true);
+    Rearrangement(state, std::move(from), first_part).move();
     state.first_part_id.reset();
     free_.clear();
     changes_ = {};
@@ -261,7 +255,7 @@ void Share::grow(State& state, std::uint32_t rows) {
     append_parts(state, from);
     state.turn_over();
     const std::uint32_t contacts = state.counted().contacts;
-    Rearrangement(state, std::move(from), first_part).move(false);
+    Rearrangement(state, std::move(from), first_part).move();
     state.counted().contacts = contacts;
     state.turn_over();
     for (std::uint32_t row = first_part; row-- > before;) free_.push_back(row);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "compute/step/plan.h"
 #include "shaders/physics/base/work_counts.h"
@@ -42,11 +43,12 @@ struct Step {
         for (physics::uint k = 0; k < physics::PAIR_TYPES; ++k)
             of_pair_type.push_back(c.pair_type_first[k + 1] - c.pair_type_first[k]);
         count_hulls(state);
-        for (std::size_t i = 0; i < bodies; ++i)
-            movers += state.properties[i].motion == physics::MOTION_DYNAMIC &&
-                      !physics::is_asleep(state.sleep_states[i], state.fixed().sleep_steps);
-        for (std::size_t i = 0; i < contacts; ++i)
-            slots += (state.constraints[i].slot_a != physics::NONE) + (state.constraints[i].slot_b != physics::NONE);
+        const auto is_mover = [&](std::uint32_t row) {
+            return physics::is_movable(state.properties[row].motion, state.sleep_states[row], state.fixed().sleep_steps);
+        };
+        for (std::uint32_t row = 0; row < bodies; ++row) movers += is_mover(row);
+        for (const physics::Contact& contact : std::span(state.contacts).first(contacts))
+            slots += is_mover(state.body_of(contact.a)) + is_mover(state.body_of(contact.b));
     }
 
     void count_hulls(const State& state) {

@@ -44,7 +44,7 @@ TableRanges row_ranges(const State& state, std::uint32_t row) {
 
 TableRanges contact_ranges(const State& state) {
     TableRanges ranges;
-    for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) ranges.push_back(live_range(state, table));
+    for (const Table table : {Table::contacts, Table::impulses}) ranges.push_back(live_range(state, table));
     if (state.reordered()) ranges.push_back(live_range(state, Table::first_contacts));  // contacts_by_id
     if (state.features().convex) ranges.push_back(live_range(state, Table::pairs));     // traffic_of() counts their hulls
     return ranges;

@@ -28,7 +28,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 2;
+constexpr std::uint32_t format = 3;
 
 struct Head {
     char magic[8];
@@ -406,7 +406,7 @@ void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, st
 
 std::vector<std::byte> World::save() const {
     const Impl& in = *interior_;
-    in.runner->download(ranges_to_save(in.state));
+    in.runner->download(lasting_ranges(in.state));
     ByteWriter out;
     out.put(head_of(in.fingerprint, in.steps));
     in.put(out, SteppedTables::all);

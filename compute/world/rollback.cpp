@@ -27,7 +27,7 @@ void World::keep_state() {
         while (std::ranges::find(in.kept, next.slot, &Impl::Kept::slot) != in.kept.end()) ++next.slot;
     }
     next.steps = in.steps;
-    const TableRanges ranges = ranges_to_save(in.state);
+    const TableRanges ranges = lasting_ranges(in.state);
     if (in.runner->in_place())
         in.runner->download(ranges);
     else if (in.state.changes_motions())

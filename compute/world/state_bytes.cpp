@@ -17,10 +17,10 @@ namespace scree {
 
 namespace {
 
-// Tables of rows, then of contacts. Statistics read the constraints of the last step.
+// Tables of rows, then of contacts.
 constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
                                 Table::strains,    Table::masses, Table::scaled_motions};
-constexpr std::array contact_tables{Table::contacts, Table::impulses, Table::constraints};
+constexpr std::array contact_tables{Table::contacts, Table::impulses};
 
 std::size_t record_bytes(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].record_bytes;
@@ -117,12 +117,6 @@ std::uint64_t layout_of_tables() {
     return hash;
 }
 
-TableRanges ranges_to_save(const State& state) {
-    TableRanges ranges = lasting_ranges(state);
-    ranges.push_back({Table::constraints, 0, state.live(BufferLength::contacts)});
-    return ranges;
-}
-
 void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts) {
     out.put(portable(parameters));
     out.put(portable(counts));
@@ -210,7 +204,6 @@ void StateBytes::check(const State& own) const {
                   .velocities = bytes(Table::velocities),
                   .first_contacts = bytes(Table::first_contacts),
                   .contacts = bytes(Table::contacts),
-                  .constraints = bytes(Table::constraints),
                   .joints = joints_,
                   .joint_blocks = joint_blocks_,
                   .block_bodies = block_bodies_,
@@ -272,7 +265,7 @@ TableRanges StateBytes::restore(State& state) const {
         if (!bytes.empty()) std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
     state.take_rows(rows_);
     state.index_surfaces();
-    TableRanges changed = which_ == SteppedTables::all ? ranges_to_save(state) : TableRanges{};
+    TableRanges changed = which_ == SteppedTables::all ? lasting_ranges(state) : TableRanges{};
     changed.push_back({Table::counts, 0, 1});
     changed.push_back({Table::ids, 0, p.bodies});
     append(changed, joint_structure_ranges(state));

@@ -29,9 +29,7 @@ std::uint64_t fingerprint_of(const State& state, std::uint64_t hash_of_rows);
 // XXH64 over the names and record sizes of the tables: those of another one cannot be read.
 std::uint64_t layout_of_tables();
 
-// Ranges that a checkpoint needs from the runner.
-TableRanges ranges_to_save(const State& state);
-// What bytes have of the tables that steps change (ranges_to_save).
+// What bytes have of the tables that steps change (lasting_ranges).
 enum class SteppedTables {
     all,
     on_device,  // only the properties: the runner keeps the others itself

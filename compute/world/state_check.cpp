@@ -189,8 +189,6 @@ private:
             require(in(contact.a, p_.bodies) && in(contact.b, p_.bodies) && contact.a != contact.b, "contact", i,
                     "is of a body that is none");
             require(contact.count >= 1 && contact.count <= 4, "contact", i, "has more than four points, or none");
-            const physics::Constraint constraint = saved_.constraints[i];
-            require(in(constraint.a, p_.bodies) && in(constraint.b, p_.bodies), "constraint", i, "is of a body that is none");
         }
     }
 

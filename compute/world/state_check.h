@@ -38,7 +38,6 @@ struct SavedTables {
     RecordBytes<physics::Velocity> velocities;
     RecordBytes<physics::uint> first_contacts;
     RecordBytes<physics::Contact> contacts;
-    RecordBytes<physics::Constraint> constraints;
     RecordBytes<physics::Joint> joints;
     RecordBytes<physics::JointBlock> joint_blocks;
     RecordBytes<physics::BlockBody> block_bodies;

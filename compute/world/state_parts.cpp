@@ -144,14 +144,8 @@ void StateParts::put_contacts(Table table, std::uint32_t first, std::uint32_t la
         out.put(ContactPlace{whole, contact.a == whole ? contact.b : contact.a});
         if (table == Table::contacts) {
             out.put(contact);
-        } else if (table == Table::impulses) {
+        } else {
             out.put(state_.impulses[k]);
-        } else {  // what outlasts the step
-            physics::Constraint constraint{};
-            constraint.a = state_.id_of(state_.constraints[k].a);
-            constraint.b = state_.id_of(state_.constraints[k].b);
-            constraint.slide_limit = state_.constraints[k].slide_limit;
-            out.put(constraint);
         }
     });
     const std::size_t bytes = bytes_of_record(table);

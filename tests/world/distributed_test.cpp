@@ -306,7 +306,6 @@ TEST_CASE("a rank has memory for its own contacts, also after the world is read"
     }
 }
 
-// The file of ranks is that of one rank but for what no step reads: their constraints have no more than statistics need.
 TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds the whole", "[ranks]") {
     demos::DemoScene built = demos::build(*demos::find_demo("mix"), {.bodies = 300});
     for (const auto& [name, bodies] : {std::pair("bins", 0), std::pair("mesh", 20)}) {  // hulls; triangles, which are parts
@@ -327,7 +326,6 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
     const Statistics statistics = alone.statistics();
     alone.step(50);
     const std::uint64_t end = alone.state_hash();
-    std::vector<std::vector<std::byte>> saved;
     for (const int n : {2, 3, 5}) {
         std::vector<std::byte> all;
         std::size_t most = 0;
@@ -359,7 +357,8 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
             CHECK(ends_alike);
         });
         INFO(n << " ranks");
-        REQUIRE(all.size() == expected.size());
+        const bool is_file_of_one = all == expected;
+        CHECK(is_file_of_one);
         CHECK(most < all.size());
         World later(built.scene, {}, make_reference_runner(1));
         later.restore(all);
@@ -367,8 +366,5 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
         CHECK(later.statistics().points == statistics.points);
         later.step(50);
         CHECK(later.state_hash() == end);
-        saved.push_back(std::move(all));
     }
-    const bool all_alike = saved[1] == saved[0] && saved[2] == saved[0];
-    CHECK(all_alike);
 }

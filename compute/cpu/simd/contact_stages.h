@@ -87,7 +87,7 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
         c = with_unrest(c, unrest);
         const Bool live = living(first, last);
         const Indices written = contacts.only(live);
-        scatter(tables.constraints, written, c);
+        if (tables.constraints != nullptr) scatter(tables.constraints, written, c);
         scatter_member<Contact>(tables.contacts, written, offsetof(Contact, unrest), unrest);
         scatter_member<Contact>(tables.contacts, written, offsetof(Contact, load), from.load);
         Kept& prepared = kept(tables, first);

@@ -59,6 +59,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.plain = usual && !has.rolls;
     tables.impacts = has.bounces || state.is_watched;
     tables.warm_starts = usual && !has.blocks && !state.is_watched;
+    if (tables.warm_starts && !has.breaking) tables.constraints = nullptr;
     return tables;
 }
 

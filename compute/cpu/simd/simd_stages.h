@@ -20,7 +20,7 @@ struct WideTables {
     std::uint32_t* manifolds;
     std::uint32_t* point_counts;
     std::uint32_t* contacts;
-    std::uint32_t* constraints;
+    std::uint32_t* constraints;  // null: only the passes of lanes read them, in `groups`
     std::uint32_t* bounds;
     std::uint32_t* poses;
     std::uint32_t* velocities;

@@ -64,7 +64,14 @@ LAW vec3 patch_centre(Contact contact, float speculative, bool on_b) {
     return centre * reciprocal(weights);
 }
 
-// The constraint of a contact between inactive bodies, read by statistics alone.
+// The slide after which the points of a contact have left the body they slide over, m: half the width of its face.
+LAW float slide_limit_of(Contact contact, BodyProperties ta, BodyProperties tb, uint anchor) {
+    float limit_a = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
+    float limit_b = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
+    return choose(anchor == CONSTRAINT_ON_B, limit_a, choose(anchor == CONSTRAINT_ROUND, 1.0e30f, limit_b));
+}
+
+// The constraint of a contact between inactive bodies, which no pass solves.
 LAW Constraint idle_constraint(Contact contact) {
     Constraint c;
     c.a = contact.a;
@@ -104,9 +111,7 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     uint anchor = anchor_of(contact, ta, tb);
     bool on_b = anchor == CONSTRAINT_ON_B, round = anchor == CONSTRAINT_ROUND;
     c.flags = contact.count | anchor;
-    float limit_a = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
-    float limit_b = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
-    c.slide_limit = choose(on_b, limit_a, choose(round, c.slide_limit, limit_b));
+    c.slide_limit = slide_limit_of(contact, ta, tb, anchor);
     vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters), on_b);
     float reach = 0.0f;
     for (int k = 0; k < 4; ++k) {
