@@ -115,8 +115,8 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
             found_by(other, body);
     };
     if (search == Search::listed) {
-        for_each_near(state, body, [&](std::uint32_t other) {
-            if (physics::can_touch(own, state.properties[other])) found_by_either(other, state.bounds[other].level);
+        for_each_near(state, body, [&](const physics::CellEntry& other) {
+            if (can_touch(state, body, own, other)) found_by_either(other.body, other.level & ~physics::MOVES);
         });
         return;
     }

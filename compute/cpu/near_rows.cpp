@@ -2,6 +2,7 @@
 #include "compute/cpu/near_rows.h"
 
 #include <atomic>
+#include <limits>
 #include <mutex>
 
 namespace scree::reference {
@@ -84,6 +85,14 @@ void list_near_rows(State& state, const Threads& threads) {
     near.is_listed = true;
 }
 
+physics::CellEntry entry_of(const State& state, std::size_t row) {
+    const physics::Bounds& bounds = state.bounds[row];
+    return {bounds.lower, static_cast<std::uint32_t>(row), bounds.upper,
+            physics::level_of_entry(bounds.level, state.properties[row])};
+}
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr physics::CellEntry nowhere{physics::vec3(infinite), 0, physics::vec3(-infinite), 0};
+
 struct Outside {
     std::size_t rows = 0;
     bool reaches_far = false;  // one is on a level much coarser than the finest
@@ -94,12 +103,14 @@ Outside place_rows(State& state, const Threads& threads) {
     std::atomic<std::size_t> outside = 0;
     std::atomic<bool> reaches_far = false;
     near.places.resize(state.fixed().bodies);
+    near.entries.resize(state.fixed().bodies);
     threads.for_ranges(near.places.size(), [&](std::size_t first, std::size_t last) {
         std::size_t found = 0;
         for (std::size_t i = first; i < last; ++i) {
             near.places[i] = !in_grid(state, i)                          ? Place::not_in_grid
                              : is_within(state.bounds[i], near.boxes[i]) ? Place::in_box
                                                                          : Place::outside;
+            near.entries[i] = near.places[i] == Place::in_box ? entry_of(state, i) : nowhere;
             if (near.places[i] != Place::outside) continue;
             ++found;
             if (level_of(state, i) > finest + levels_apart) reaches_far.store(true, std::memory_order_relaxed);

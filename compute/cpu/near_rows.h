@@ -6,6 +6,9 @@
 // when that is many, boxes are drawn anew, and the list when few leave theirs within a step.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "compute/cpu/cells.h"
 #include "compute/step/threads.h"
 
@@ -14,16 +17,23 @@ namespace scree::reference {
 // Brings the list up to date. False: it does not serve this step.
 bool find_near_rows(State& state, const Threads& threads);
 
-// Calls found(other) for each row of the grid whose bounds overlap those of `body`: of each two for one of them.
+// Calls found(entry) for each row of the grid whose bounds overlap those of `body`: of each two for one of them.
 template <typename Found>
 void for_each_near(const State& state, std::uint32_t body, const Found& found) {
     using Place = NearRows::Place;
     const NearRows& near = state.near_rows;
     const physics::Bounds& around = state.bounds[body];
     if (near.places[body] == Place::in_box) {
-        for (std::uint32_t k = near.firsts[body]; k < near.ends[body]; ++k) {
-            const std::uint32_t other = near.others[k];
-            if (near.places[other] == Place::in_box && overlap(around, state.bounds[other])) found(other);
+        // Without branches, as half of those near each other overlap.
+        std::array<std::uint32_t, 64> overlapping;
+        for (std::uint32_t first = near.firsts[body]; first < near.ends[body]; first += overlapping.size()) {
+            const std::uint32_t last = std::min<std::uint32_t>(first + overlapping.size(), near.ends[body]);
+            std::size_t count = 0;
+            for (std::uint32_t k = first; k < last; ++k) {
+                overlapping[count] = near.others[k];
+                count += overlap(around, near.entries[near.others[k]]);
+            }
+            for (std::size_t k = 0; k < count; ++k) found(near.entries[overlapping[k]]);
         }
         return;
     }
@@ -32,7 +42,7 @@ void for_each_near(const State& state, std::uint32_t body, const Found& found) {
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, state.fixed());
         for_each_in_cells(state, range, level, [&](const physics::CellEntry& other) {
             const bool found_by_other = near.places[other.body] == Place::outside && other.body <= body;
-            if (overlap(around, other) && !found_by_other) found(other.body);
+            if (overlap(around, other) && !found_by_other) found(other);
         });
     }
 }

@@ -128,7 +128,7 @@ private:
 
 void drop_caches(State& state) {
     release(state.partners);
-    release(state.least_partners);
+    release(state.partners_before);
     release(state.movable_bodies);
     release(state.driven_bodies);
     release(state.paces);

@@ -322,8 +322,8 @@ struct State {
     std::vector<physics::ivec3> entry_cells;
     // Likewise: which rows are near each other.
     NearRows near_rows;
-    // Likewise: the least id of the partners in the contacts that each body owned in the last step.
-    std::vector<std::uint32_t> least_partners;
+    // Likewise: by contact of the last step, the id of the partner of the body that owned it.
+    std::vector<std::uint32_t> partners_before;
     std::vector<std::uint8_t> row_kinds;  // by row, its shape and whether it is inactive
     // Likewise: rows of the bodies that contacts move in this step, and of kinematic ones in motion.
     std::vector<std::uint32_t> movable_bodies, driven_bodies;

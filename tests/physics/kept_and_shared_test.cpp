@@ -51,7 +51,7 @@ bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     Velocity va{}, vb{};
     vb.angular = spin_b;
     vb.linear = cross3(spin_b, vec3(0, 0.5f, 0));  // about the centre of the contact
-    return may_persist(impulse, box(0.5f), box(0.5f)) && is_persistent(contact, box(0.5f), a, va, box(0.5f), b, vb);
+    return may_persist(impulse, SHAPE_BOX, SHAPE_BOX) && is_persistent(contact, box(0.5f), a, va, box(0.5f), b, vb);
 }
 
 Parameters some_parameters() {

@@ -60,10 +60,10 @@ LAW bool turned_little(vec4 before, vec4 now, uint points) {
     return cosine_between(before, now) > choose(points > 2u, KEPT_TURN, KEPT_ROCKING);
 }
 
-// Whether a contact of the two rows may persist at all: it bore an impulse, and neither body can roll on the other.
-LAW bool may_persist(Impulse impulse, BodyProperties ta, BodyProperties tb) {
+// Whether a contact of two shapes may persist at all: it bore an impulse, and neither body can roll on the other.
+LAW bool may_persist(Impulse impulse, uint shape_a, uint shape_b) {
     return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f &&
-           !(touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb)));
+           !(touches_in_a_point(shape_a) || touches_in_a_point(shape_b) || (has_round_core(shape_a) && has_round_core(shape_b)));
 }
 // Whether last step's contact, which may, persists: rotations are below the limits, and the anchors neither separate nor
 // slide.
