@@ -303,7 +303,6 @@ SCREE_INLINE TwoBlocks gather_rows(const Place& place) {
     }
     return found;
 }
-// Writes nothing where `place(lane)` is null.
 template <typename Place>
 SCREE_INLINE void scatter_rows(const TwoBlocks& blocks, const Place& place) {
     Block front, back;
@@ -317,7 +316,6 @@ SCREE_INLINE void scatter_rows(const TwoBlocks& blocks, const Place& place) {
 #pragma GCC unroll 16
     for (int lane = 0; lane < lanes; ++lane) {
         uint32_t* const to = place(lane);
-        if (to == nullptr) continue;
         const Words& words = (lane < lanes / 2 ? front : back).words[lane % 4];
 #if SCREE_LANES == 8
         const Row row = words;
@@ -355,7 +353,7 @@ SCREE_INLINE Record gather_from(const Place& place) {
     }
     return record;
 }
-// Lanes with a null place write nothing.
+// What lanes have no place for goes to unused memory: a branch for each lane is not foreseen by a branch predictor.
 template <typename Record, typename Place>
 SCREE_INLINE void scatter_to(const Record& record, const Place& place) {
     constexpr int blocks = sizeof(Record) / sizeof(Block);
@@ -364,8 +362,7 @@ SCREE_INLINE void scatter_to(const Record& record, const Place& place) {
 #if SCREE_LANES >= 8
 #pragma GCC unroll 16
     for (; block + 1 < blocks; block += 2)
-        scatter_rows({in[block], in[block + 1]},
-                     [&](int lane) { return place(lane) == nullptr ? nullptr : place(lane) + 4 * block; });
+        scatter_rows({in[block], in[block + 1]}, [&](int lane) { return place(lane) + 4 * block; });
 #endif
 #pragma GCC unroll 16
     for (; block < blocks; ++block) {
@@ -373,7 +370,6 @@ SCREE_INLINE void scatter_to(const Record& record, const Place& place) {
 #pragma GCC unroll 16
         for (int lane = 0; lane < lanes; ++lane) {
             uint32_t* const to = place(lane);
-            if (to == nullptr) continue;
             const Quad quad = quarter(rows.words[lane % 4], lane / 4);
             __builtin_memcpy(to + 4 * block, &quad, sizeof quad);
         }
@@ -389,7 +385,8 @@ SCREE_INLINE Record gather(const uint32_t* table, const Indices& indices) {
 template <typename Record>
 SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record& record) {
     constexpr size_t words = sizeof(Record) / sizeof(Words);
-    scatter_to(record, [&](int lane) { return indices.of[lane] == nowhere ? nullptr : table + words * indices.of[lane]; });
+    uint32_t unused[words];
+    scatter_to(record, [&](int lane) { return indices.of[lane] == nowhere ? unused : table + words * indices.of[lane]; });
 }
 // Only the member `value` at that offset in a record of lanes.
 template <typename Record, typename Member>
@@ -411,7 +408,8 @@ SCREE_INLINE Record gather_at(const Pointers& pointers, size_t offset = 0) {
 // Lanes with a null pointer write nothing.
 template <typename Record>
 SCREE_INLINE void scatter_at(uint32_t* const* pointers, size_t offset, const Record& record) {
-    scatter_to(record, [&](int lane) { return pointers[lane] == nullptr ? nullptr : pointers[lane] + offset; });
+    uint32_t unused[sizeof(Record) / sizeof(Words)];
+    scatter_to(record, [&](int lane) { return pointers[lane] == nullptr ? unused : pointers[lane] + offset; });
 }
 
 // Broadcasts one record.

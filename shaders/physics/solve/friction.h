@@ -314,7 +314,9 @@ LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, 
     bool resists = acts && c.rolling_resistance != 0.0f;
     SolveResult after = s;
     if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
-    return choose(acts, solve_friction(c, after, normal, a, b, biased, parameters), s);
+    after = solve_friction(c, after, normal, a, b, biased, parameters);
+    if (none(!acts)) return after;
+    return choose(acts, after, s);
 }
 
 LAWS_END
