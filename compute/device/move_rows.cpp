@@ -23,9 +23,7 @@ RowMover::Tables DeviceRunner::tables_to_move() const {
     const std::uint32_t rows = state_->fixed().bodies, bodies = state_->body_count;
     const std::size_t contacts = state_->counted().contacts;
     RowMover::Tables tables{rows, bodies, records_of(Table::first_contacts, rows + 1), {}, {}, {}};
-    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains,
-                              Table::masses, Table::scaled_motions})
-        tables.of_bodies.push_back(records_of(table, bodies));
+    for (const Table table : row_tables) tables.of_bodies.push_back(records_of(table, bodies));
     const auto follow = [&](Table table, std::size_t count, std::size_t bytes) {
         if (count > 0) tables.with_rows.emplace_back(records_of(table, count), words_to(bytes));
     };

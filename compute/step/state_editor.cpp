@@ -121,9 +121,7 @@ TableRanges StateEditor::needed_to_add(std::uint32_t count, bool with_parts) con
     const std::size_t parts = p.bodies - p.first_part;
     TableRanges needed{{Table::first_contacts, p.first_part, parts + 1},
                        {Table::contacts, 0, state_.live(BufferLength::contacts)}};
-    for (const Table table :
-         {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::scaled_motions})
-        needed.push_back({table, p.first_part, parts});
+    append_rows(needed, p.first_part, parts);
     return needed;
 }
 
@@ -156,9 +154,8 @@ TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     state_.allocate();
     changed.push_back({Table::first_contacts, first, p.bodies + 1 - first});
-    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::masses,
-                              Table::scaled_motions, Table::ids})
-        changed.push_back({table, first, p.bodies - first});
+    append_rows(changed, first, p.bodies - first);
+    changed.push_back({Table::ids, first, p.bodies - first});
     if (!state_.filters.empty()) changed.push_back({Table::filters, first, p.bodies - first});
     return changed;
 }
@@ -168,9 +165,8 @@ TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
     if (count == 0) return {};
     for (std::uint32_t row = first; row < first + count; ++row) state_.first_contacts[row + 1] = state_.counted().contacts;
     TableRanges added{{Table::first_contacts, first + 1, count}};
-    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains,
-                              Table::masses, Table::scaled_motions, Table::ids})
-        added.push_back({table, first, count});
+    append_rows(added, first, count);
+    added.push_back({Table::ids, first, count});
     if (!state_.filters.empty()) added.push_back({Table::filters, first, count});
     return added;
 }
@@ -204,7 +200,7 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
     }
     p.bodies = static_cast<std::uint32_t>(state_.properties.size());
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
-    for (const Table table : {Table::masses, Table::scaled_motions, Table::first_contacts}) state_.make(table);
+    for (const Table table : {Table::masses, Table::first_contacts}) state_.make(table);
     state_.allocate();
     state_.poses[row] = SceneCompiler::start_of(body);
     state_.velocities[row] = SceneCompiler::start_velocity_of(body);

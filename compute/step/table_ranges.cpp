@@ -29,6 +29,10 @@ void append(TableRanges& ranges, const TableRanges& more) {
     ranges.insert(ranges.end(), more.begin(), more.end());
 }
 
+void append_rows(TableRanges& ranges, std::size_t first, std::size_t count) {
+    for (const Table table : row_tables) ranges.push_back({table, first, count});
+}
+
 TableRanges body_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : {Table::poses, Table::velocities, Table::sleep_states}) ranges.push_back(live_range(state, table));
@@ -66,8 +70,8 @@ TableRanges vehicle_ranges(const State& state) {
 
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
-    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains,
-                              Table::masses, Table::scaled_motions, Table::contacts, Table::impulses, Table::first_contacts})
+    for (const Table table : row_tables) ranges.push_back(live_range(state, table));
+    for (const Table table : {Table::contacts, Table::impulses, Table::first_contacts})
         ranges.push_back(live_range(state, table));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));

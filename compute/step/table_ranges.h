@@ -17,6 +17,10 @@ struct TableRange {
 };
 using TableRanges = std::vector<TableRange>;
 
+// The tables of rows that last from step to step: of each row, what goes with it to other rows, ranks and files.
+inline constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
+                                       Table::strains,    Table::masses, Table::scaled_motions};
+
 // Lengths of all tables, and what else a runner adapts to.
 struct TableLengths {
     std::array<std::size_t, table_count> bytes{};
@@ -28,6 +32,8 @@ struct TableLengths {
 
 std::size_t bytes_of(const TableRanges& ranges);
 void append(TableRanges& ranges, const TableRanges& more);
+// Appends the same rows of each of row_tables.
+void append_rows(TableRanges& ranges, std::size_t first, std::size_t count);
 
 // Ranges between two steps, with the runner's counts: poses, velocities and sleep states of all rows (and motions, if
 // bodies may break); of one row; contacts of the last step; all joints; all vehicles.

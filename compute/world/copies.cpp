@@ -132,7 +132,6 @@ void World::Impl::reset(std::span<const std::size_t> which) {
         which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses, Table::scaled_motions});
     if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
     state.make(Table::masses);
-    state.make(Table::scaled_motions);
     const auto put_back = [&](std::size_t row, std::size_t place) {
         state.poses[row] = start.poses[place];
         state.velocities[row] = start.velocities[place];

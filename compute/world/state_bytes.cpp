@@ -17,9 +17,6 @@ namespace scree {
 
 namespace {
 
-// Tables of rows, then of contacts.
-constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
-                                Table::strains,    Table::masses, Table::scaled_motions};
 constexpr std::array contact_tables{Table::contacts, Table::impulses};
 
 std::size_t record_bytes(Table table) {
