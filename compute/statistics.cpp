@@ -79,6 +79,11 @@ void add_joints(const State& state, std::size_t first, std::size_t count, Statis
     }
 }
 
+// Whether a row was removed since the last step, in which it may have had contacts.
+bool is_gone(const State& state, std::uint32_t row) {
+    return state.properties[row].shape == physics::SHAPE_NONE;
+}
+
 // Whether a contact ended within the last step by sliding off (contact_solver.h).
 bool has_slid_off(const State& state, const physics::Contact& contact, const physics::Impulse& impulse) {
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
@@ -91,10 +96,11 @@ ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy) 
     const auto rests = [&](std::uint32_t row) { return glm::length(state.velocities[row].linear) < resting_speed; };
     ContactSums sums;
     for (const std::uint32_t i : contacts_by_id(state)) {
-        if (copy && state.copy_of(state.contacts[i].a) != *copy) continue;
-        if (!state.presence.empty() && !state.tells_of(state.contacts[i])) continue;
-        ++sums.manifolds;
         const physics::Contact& contact = state.contacts[i];
+        if (is_gone(state, contact.a) || is_gone(state, contact.b)) continue;
+        if (copy && state.copy_of(contact.a) != *copy) continue;
+        if (!state.presence.empty() && !state.tells_of(contact)) continue;
+        ++sums.manifolds;
         if (has_slid_off(state, contact, state.impulses[i])) continue;
         const physics::uint count = contact.count;
         sums.points += count;

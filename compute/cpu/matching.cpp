@@ -37,7 +37,7 @@ std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint3
     return from < last && state.partners_before[from] == id ? from : physics::NONE;
 }
 
-// In the order of the partners' ids. Most bodies have few, in this order already.
+// In the order of the partners' ids. Most bodies have few candidates, which are in this order already.
 void sort_candidates(const State& state, std::span<physics::Candidate> candidates) {
     const auto before = [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); };
     if (!std::is_sorted(candidates.begin(), candidates.end(), before)) std::sort(candidates.begin(), candidates.end(), before);
@@ -80,20 +80,20 @@ void match_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.pair_manifolds.size() < state.counted().pairs) state.pair_manifolds.resize(state.fixed().pair_capacity);
     list_rows(state, threads);
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> persistent;  // pairs that may be
-        persistent.reserve(state.pair_starts[end] - state.pair_starts[begin]);
+        std::vector<std::uint32_t> asked;  // pairs that may persist
+        asked.reserve(state.pair_starts[end] - state.pair_starts[begin]);
         for (std::size_t i = begin; i < end; ++i) {
             std::uint32_t from = state.first_contacts[i], index = state.pair_starts[i];
             const std::span candidates = std::span(state.candidates).subspan(index, state.pair_starts[i + 1] - index);
             sort_candidates(state, candidates);
             for (const physics::Candidate& candidate : candidates) {
                 const physics::Pair pair = matched(state, candidate, from);
-                if (may_persist(state, pair)) persistent.push_back(index);
+                if (may_persist(state, pair)) asked.push_back(index);
                 state.pairs[index++] = pair;
             }
         }
-        if (wide) return wide->keep(wide_tables(state, persistent), 0, persistent.size());
-        for (const std::uint32_t index : persistent)
+        if (wide) return wide->keep(wide_tables(state, asked), 0, asked.size());
+        for (const std::uint32_t index : asked)
             if (persists(state, state.pairs[index])) state.pairs[index].pair_type = physics::PAIR_PERSISTENT;
     });
 }

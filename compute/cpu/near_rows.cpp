@@ -91,7 +91,7 @@ physics::CellEntry entry_of(const State& state, std::size_t row) {
             physics::level_of_entry(bounds.level, state.properties[row])};
 }
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr physics::CellEntry nowhere{physics::vec3(infinite), 0, physics::vec3(-infinite), 0};
+constexpr physics::CellEntry no_entry{physics::vec3(infinite), 0, physics::vec3(-infinite), 0};
 
 struct Outside {
     std::size_t rows = 0;
@@ -110,7 +110,7 @@ Outside place_rows(State& state, const Threads& threads) {
             near.places[i] = !in_grid(state, i)                          ? Place::not_in_grid
                              : is_within(state.bounds[i], near.boxes[i]) ? Place::in_box
                                                                          : Place::outside;
-            near.entries[i] = near.places[i] == Place::in_box ? entry_of(state, i) : nowhere;
+            near.entries[i] = near.places[i] == Place::in_box ? entry_of(state, i) : no_entry;
             if (near.places[i] != Place::outside) continue;
             ++found;
             if (level_of(state, i) > finest + levels_apart) reaches_far.store(true, std::memory_order_relaxed);

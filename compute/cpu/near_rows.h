@@ -24,7 +24,7 @@ void for_each_near(const State& state, std::uint32_t body, const Found& found) {
     const NearRows& near = state.near_rows;
     const physics::Bounds& around = state.bounds[body];
     if (near.places[body] == Place::in_box) {
-        // Without branches, as half of those near each other overlap.
+        // Without branches: half of those near each other overlap, which no branch predictor foresees.
         std::array<std::uint32_t, 64> overlapping;
         for (std::uint32_t first = near.firsts[body]; first < near.ends[body]; first += overlapping.size()) {
             const std::uint32_t last = std::min<std::uint32_t>(first + overlapping.size(), near.ends[body]);

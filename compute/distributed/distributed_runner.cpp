@@ -122,7 +122,8 @@ bool DistributedRunner::can_share_out() const {
 void DistributedRunner::share_out() {
     State& state = *state_;
     download_share();
-    if (state.presence.empty()) ownership_.place(state, *exchange_);
+    // What is no longer dynamic goes to all.
+    if (state.presence.empty() || ownership_.any_stopped(state)) ownership_.place(state, *exchange_);
     share_.make(state);
     device_.attach_anew();
     ownership_.forget_groups();
@@ -140,6 +141,7 @@ void DistributedRunner::download_share() {
 void DistributedRunner::make_whole() {
     download_share();
     share_.end(*state_, *exchange_);
+    ownership_.note_motions(*state_);
     device_.attach_anew();
     placed_bodies_ = state_->fixed().first_part;
     halo_.forget();

@@ -170,6 +170,14 @@ void Ownership::give_contacts(State& state, Exchange& exchange) {
     state.turn_over();
 }
 
+void Ownership::note_motions(const State& state) {
+    for (std::uint32_t id = 0; id < owner_.size(); ++id) {
+        const std::uint32_t row = state.row_of(id);
+        was_dynamic_[id] = is_dynamic(state, row);
+        was_everywhere_[id] = !is_dynamic(state, row) && !physics::is_absent(state.properties[row].motion);
+    }
+}
+
 bool Ownership::any_stopped(const State& state) const {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         const std::uint32_t id = state.id_of(row);

@@ -35,6 +35,8 @@ public:
     void give_contacts(State& state, Exchange& exchange);
     // Bodies that new joints have tied to one of another rank follow it.
     void follow_joints(State& state, Exchange& exchange, Share& share);
+    // After a share has ended, and before what is edited then: ranks knew the motions of the bodies in their shares alone.
+    void note_motions(const State& state);
     // In a share no joints connect bodies.
     void forget_groups() { std::vector<std::uint32_t>().swap(group_); }
     // Fragments belong to the owner of what has broken.

@@ -129,6 +129,8 @@ private:
 void drop_caches(State& state) {
     release(state.partners);
     release(state.partners_before);
+    release(state.row_kinds);
+    state.near_rows = {};
     release(state.movable_bodies);
     release(state.driven_bodies);
     release(state.paces);

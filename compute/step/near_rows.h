@@ -23,7 +23,7 @@ struct NearRows {
     // By row, in this step.
     enum class Place : std::uint8_t { not_in_grid, in_box, outside };
     std::vector<Place> places;
-    std::vector<physics::CellEntry> entries;  // by row, of those in their boxes; of others none overlaps anything
+    std::vector<physics::CellEntry> entries;  // by row, of those in their boxes; of others one that overlaps nothing
 };
 
 }  // namespace scree

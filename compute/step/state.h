@@ -322,7 +322,7 @@ struct State {
     std::vector<physics::ivec3> entry_cells;
     // Likewise: which rows are near each other.
     NearRows near_rows;
-    // Likewise: by contact of the last step, the id of the partner of the body that owned it.
+    // Likewise: by contact of the last step, the id of its owner's partner.
     std::vector<std::uint32_t> partners_before;
     std::vector<std::uint8_t> row_kinds;  // by row, its shape and whether it is inactive
     // Likewise: rows of the bodies that contacts move in this step, and of kinematic ones in motion.

@@ -17,7 +17,7 @@ struct TableRange {
 };
 using TableRanges = std::vector<TableRange>;
 
-// The tables of rows that last from step to step: of each row, what goes with it to other rows, ranks and files.
+// The tables of rows that last from step to step: what of a row goes along to other rows, ranks and files.
 inline constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
                                        Table::strains,    Table::masses, Table::scaled_motions};
 

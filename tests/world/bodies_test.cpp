@@ -57,6 +57,8 @@ TEST_CASE("a removed body is gone, its handle stays stale, and its index is give
     REQUIRE(world.is_valid(world.handle_of(1)));
     REQUIRE(!world.bodies()[2].exists);
     REQUIRE(world.bodies_there() == 3);
+    REQUIRE(world.statistics().manifolds == 1);  // of the lowest box and the ground
+    REQUIRE(world.statistics().points == 4);
     REQUIRE_THROWS_WITH(world.index_of(second), Catch::Contains("body 2 of generation 0 has been removed"));
     REQUIRE_THROWS_AS(world.apply_force(2, vec3(1)), std::out_of_range);
     REQUIRE_THROWS_AS(world.remove_body(2), std::out_of_range);

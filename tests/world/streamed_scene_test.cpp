@@ -165,6 +165,30 @@ TEST_CASE("bodies of a streamed scene are there for whoever looks, and can be ed
     });
 }
 
+TEST_CASE("bodies of a streamed scene that go or change their motion do so on every rank", "[ranks]") {
+    const StreamedScene scene = streamed("mix", 200);
+    using Act = void (*)(World&);
+    for (const Act act :
+         {Act{[](World& world) { world.remove_body(50); }}, Act{[](World& world) { world.set_motion(60, Motion::kinematic); }},
+          Act{[](World& world) { world.set_motion(70, Motion::fixed); }}}) {
+        for (const int before : {0, 1, 30}) {
+            CAPTURE(before);
+            World alone(scene.whole(), {}, make_reference_runner(1));
+            alone.step(before);
+            act(alone);
+            alone.step(30);
+            const std::uint64_t expected = alone.state_hash();
+            run_in_process(3, [&](const std::shared_ptr<Exchange>& exchange) {
+                World world(scene, {}, make_distributed_runner(exchange));
+                world.step(before);
+                act(world);
+                world.step(30);
+                if (world.state_hash() != expected) throw std::runtime_error("another hash");
+            });
+        }
+    }
+}
+
 TEST_CASE("checkpoints of worlds that began with shares and whole are each other's", "[ranks]") {
     const StreamedScene scene = streamed("pile", 200);
     World alone(scene.whole(), {}, make_reference_runner(1));

@@ -353,7 +353,6 @@ SCREE_INLINE Record gather_from(const Place& place) {
     }
     return record;
 }
-// What lanes have no place for goes to unused memory: a branch for each lane is not foreseen by a branch predictor.
 template <typename Record, typename Place>
 SCREE_INLINE void scatter_to(const Record& record, const Place& place) {
     constexpr int blocks = sizeof(Record) / sizeof(Block);
@@ -381,7 +380,7 @@ SCREE_INLINE Record gather(const uint32_t* table, const Indices& indices) {
     constexpr size_t words = sizeof(Record) / sizeof(Words);
     return gather_from<Record>([&](int lane) { return table + words * indices.of[lane]; });
 }
-// Lanes with index `nowhere` write nothing.
+// Lanes with index `nowhere` write to unused memory: no branch predictor foresees which they are.
 template <typename Record>
 SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record& record) {
     constexpr size_t words = sizeof(Record) / sizeof(Words);
@@ -405,7 +404,7 @@ template <typename Record, typename Pointers>
 SCREE_INLINE Record gather_at(const Pointers& pointers, size_t offset = 0) {
     return gather_from<Record>([&](int lane) { return pointers[lane] + offset; });
 }
-// Lanes with a null pointer write nothing.
+// Lanes with a null pointer write to unused memory.
 template <typename Record>
 SCREE_INLINE void scatter_at(uint32_t* const* pointers, size_t offset, const Record& record) {
     uint32_t unused[sizeof(Record) / sizeof(Words)];
