@@ -180,10 +180,8 @@ void sort_cells(State& state, const Threads& threads, std::uint32_t) {
             const auto last = state.cell_entries.begin() + state.cell_ends[b];
             std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
             for (physics::CellEntry& entry : std::span(first, last)) {
-                const physics::Bounds& around = state.bounds[entry.body];
-                inactive += (around.level & physics::INACTIVE) != 0;
-                entry = {around.lower, entry.body, around.upper,
-                         physics::level_of_entry(around.level, state.properties[entry.body])};
+                entry = entry_of(state, entry.body);
+                inactive += (entry.level & physics::INACTIVE) != 0;
                 state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())] =
                     physics::cell_of(entry.lower, entry.upper, entry.level & physics::LEVEL_BITS, state.fixed().inverse_cell);
             }

@@ -11,6 +11,11 @@
 
 namespace scree::reference {
 
+inline physics::CellEntry entry_of(const State& state, std::uint32_t row) {
+    const physics::Bounds& bounds = state.bounds[row];
+    return {bounds.lower, row, bounds.upper, physics::level_of_entry(bounds.level, state.properties[row])};
+}
+
 inline std::span<const physics::CellEntry> entries(const State& state, std::size_t first, std::size_t last) {
     return std::span(state.cell_entries).subspan(first, last - first);
 }

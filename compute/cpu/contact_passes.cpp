@@ -98,7 +98,7 @@ private:
     SlotsOfBody() = default;
     static SlotsOfBody of(const State& state, std::uint32_t body, std::uint32_t own) {
         SlotsOfBody slots;
-        slots.first = body == 0 ? 0 : state.slot_ends[body - 1];
+        slots.first = state.first_slot_of(body);
         slots.own = own;
         slots.last = state.slot_ends[body];
         return slots;

@@ -16,7 +16,7 @@ namespace {
 // Calls visit(contact, side) for each slot that a contact has with a body, in order.
 template <typename Visit>
 void for_each_slot(const State& state, std::size_t body, const Visit& visit) {
-    const auto first = state.slot_sides.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);
+    const auto first = state.slot_sides.begin() + state.first_slot_of(body);
     const auto last = state.slot_sides.begin() + state.slot_ends[body];
     std::for_each(first, last, [&](physics::uint slot) {
         if ((slot & physics::OF_JOINT) == 0) visit(std::size_t{slot / 2}, slot % 2);

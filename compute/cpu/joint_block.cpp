@@ -53,7 +53,7 @@ void JointBlock::take_velocities(bool after_contacts) {
         const physics::uint body = member.body;
         physics::Velocity velocity = state_.velocities[body];
         if (after_contacts && member.slot != NONE) {
-            const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
+            const std::size_t first = state_.first_slot_of(body);
             for (std::size_t k = first; k < state_.slot_ends[body] - member.blocks; ++k)
                 velocity = physics::changed_by(velocity, state_.slots[k]);
         }

@@ -105,7 +105,7 @@ void take_stock(Joint& joint, const State& state) {
 // Whether a body of the block has an active contact.
 bool touches(const State& state, const BlockBody& member) {
     if (member.slot == NONE) return false;
-    const std::size_t first = member.body == 0 ? 0 : state.slot_ends[member.body - 1];
+    const std::size_t first = state.first_slot_of(member.body);
     const std::size_t contacts = state.slot_ends[member.body] - first - member.blocks;
     return std::any_of(&state.slots[first], &state.slots[first] + contacts,
                        [](const physics::VelocityDelta& slot) { return slot.weight > 0; });

@@ -85,11 +85,6 @@ void list_near_rows(State& state, const Threads& threads) {
     near.is_listed = true;
 }
 
-physics::CellEntry entry_of(const State& state, std::size_t row) {
-    const physics::Bounds& bounds = state.bounds[row];
-    return {bounds.lower, static_cast<std::uint32_t>(row), bounds.upper,
-            physics::level_of_entry(bounds.level, state.properties[row])};
-}
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr physics::CellEntry no_entry{physics::vec3(infinite), 0, physics::vec3(-infinite), 0};
 
@@ -110,7 +105,7 @@ Outside place_rows(State& state, const Threads& threads) {
             near.places[i] = !in_grid(state, i)                          ? Place::not_in_grid
                              : is_within(state.bounds[i], near.boxes[i]) ? Place::in_box
                                                                          : Place::outside;
-            near.entries[i] = near.places[i] == Place::in_box ? entry_of(state, i) : no_entry;
+            near.entries[i] = near.places[i] == Place::in_box ? entry_of(state, static_cast<std::uint32_t>(i)) : no_entry;
             if (near.places[i] != Place::outside) continue;
             ++found;
             if (level_of(state, i) > finest + levels_apart) reaches_far.store(true, std::memory_order_relaxed);

@@ -11,13 +11,9 @@ struct SlotSum {
     float normal_impulse = 0;
 };
 
-inline std::size_t first_slot_of(const State& state, std::size_t body) {
-    return body == 0 ? 0 : state.slot_ends[body - 1];
-}
-
 inline SlotSum sum_of_slots(const State& state, std::size_t body) {
     SlotSum sum;
-    for (std::size_t k = first_slot_of(state, body); k < state.slot_ends[body]; ++k) {
+    for (std::size_t k = state.first_slot_of(body); k < state.slot_ends[body]; ++k) {
         const physics::VelocityDelta& slot = state.slots[k];
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;

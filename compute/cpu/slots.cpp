@@ -60,7 +60,7 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t n = state.fixed().bodies;
     threads.for_each(n, [&](std::size_t i) {
         state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
-        const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
+        const std::uint32_t first = state.first_slot_of(i);
         const std::uint32_t last = state.slot_ends[i];
         // Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact;
         // joints last.

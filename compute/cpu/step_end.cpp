@@ -20,7 +20,7 @@ namespace {
 float least_quiet_beside(const State& state, std::size_t body) {
     float quiet = physics::FOREVER;
     if (state.fixed().sleep_steps == physics::NO_SLEEP) return quiet;
-    for (std::size_t k = first_slot_of(state, body); k < state.slot_ends[body]; ++k)
+    for (std::size_t k = state.first_slot_of(body); k < state.slot_ends[body]; ++k)
         if (state.slots[k].weight > 0) quiet = std::min(quiet, state.neighbours_quiet[k]);
     return quiet;
 }

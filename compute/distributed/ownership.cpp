@@ -221,7 +221,7 @@ void Ownership::balance(State& state, Exchange& exchange, Share& share) {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         const std::uint32_t id = state.id_of(row);
         if (id >= owner_.size() || owner_[id] != exchange.rank() || !is_dynamic(state, row)) continue;
-        const std::uint32_t slots = state.slot_ends[row] - (row == 0 ? 0 : state.slot_ends[row - 1]);
+        const std::uint32_t slots = state.slot_ends[row] - state.first_slot_of(row);
         own.push_back({place_of(state, id), 1.0 + slots});
         ids.push_back(id);
         total += own.back().cost;

@@ -226,13 +226,17 @@ struct State {
     std::size_t live(BufferLength length) const;
     SceneFeatures features() const;
     bool has_joints() const;
-    // Whether some body is breakable.
     // Whether steps change motions: bodies break, or are put into quarantine.
     bool changes_motions() const {
         return has_fractures() || counted().quarantined > 0;
     }
+    // Whether some body is breakable.
     bool has_fractures() const {
         return row_content_.breaking;
+    }
+    // The slots of a body are those from here up to slot_ends[body].
+    std::uint32_t first_slot_of(std::size_t body) const {
+        return body == 0 ? 0 : slot_ends[body - 1];
     }
     // The row of the body that a row belongs to: rows behind all bodies are parts.
     std::uint32_t body_of(std::uint32_t row) const {

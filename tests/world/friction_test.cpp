@@ -130,3 +130,26 @@ TEST_CASE("nothing creeps on a turntable at 0.9 of the limit") {
         }
     }
 }
+
+TEST_CASE("a contact that slides within a step by more than the half width of the face it slides over has no points left") {
+    const auto points_after = [](float half_width, float speed) {
+        Scene scene;
+        Body table;
+        table.motion = Motion::fixed;
+        table.shape = Box{{half_width, 0.5f, half_width}};
+        Body box;
+        box.shape = Box{vec3(0.1f)};
+        box.position.y = 0.5999f;
+        table.friction = box.friction = 0;
+        scene.bodies = {table, box};
+        World world(scene, awake(), 1);
+        world.step(3);
+        world.set_velocity(1, vec3(speed, 0, 0), vec3(0));
+        world.step();
+        REQUIRE(world.statistics().manifolds == 1);
+        return world.statistics().points;
+    };
+    REQUIRE(points_after(0.5f, 24) == 4);
+    REQUIRE(points_after(0.5f, 36) == 0);
+    REQUIRE(points_after(1.5f, 36) == 4);
+}

@@ -50,13 +50,23 @@ Scene heap(int count, std::uint32_t seed) {
     return scene;
 }
 
-Scene laden_heap(int count, std::uint32_t seed) {
+// Without restitution and rolling resistance.
+static Scene plain_heap(int count, std::uint32_t seed) {
     Scene scene = heap(count, seed);
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        Body& body = scene.bodies[i];
-        body.restitution = body.rolling_resistance = 0;
-        if (i % 8 == 0) body.density *= 300;
-    }
+    for (Body& body : scene.bodies) body.restitution = body.rolling_resistance = 0;
+    return scene;
+}
+
+Scene laden_heap(int count, std::uint32_t seed) {
+    Scene scene = plain_heap(count, seed);
+    for (std::size_t i = 0; i < scene.bodies.size(); i += 8) scene.bodies[i].density *= 300;
+    return scene;
+}
+
+Scene brittle_heap(int count, std::uint32_t seed) {
+    Scene scene = plain_heap(count, seed);
+    for (Body& body : scene.bodies)
+        if (std::holds_alternative<Box>(body.shape)) body.fracture = Fracture{.impulse = 60, .pieces = 4};
     return scene;
 }
 

@@ -31,6 +31,9 @@ Scene heap(int count, std::uint32_t seed = 1);
 // Such a pile without restitution and rolling resistance, one in eight of its bodies 300 times denser.
 Scene laden_heap(int count, std::uint32_t seed = 1);
 
+// Such a pile without restitution and rolling resistance, whose boxes break when they land.
+Scene brittle_heap(int count, std::uint32_t seed = 1);
+
 // `count` bodies flying towards a common centre without gravity, with the given restitution.
 Scene swarm(int count, float restitution, std::uint32_t seed = 1);
 

@@ -130,6 +130,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
                 REQUIRE(std::ranges::equal(one, other));
             }
         }
+        return std::ranges::count(wide.state.properties, physics::MOTION_BROKEN, &physics::BodyProperties::motion);
     };
     for (const int lanes : {4, 8, 16}) {
         runs(tests::heap(100), 1, lanes);
@@ -138,6 +139,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
         runs(tests::belts(40), 1, lanes);
         runs(tests::packed(40), 1, lanes);
         runs(tests::laden_heap(320), 2, lanes);
+        REQUIRE(runs(tests::brittle_heap(60), 1, lanes) > 5);
         runs(tests::what_has_feet(7), 1, lanes);
     }
 }
