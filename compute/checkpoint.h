@@ -11,6 +11,9 @@
 // A checkpoint holds poses, velocities, kept contacts with their impulses, sleep, joints, vehicles, which bodies have
 // broken, pending actions and grips, settings, and all edits of the scene since the world was made. It does not hold the
 // scene with which the world was made: it names that by a fingerprint. Backend, device and number of threads may differ.
+//
+// Equal states have equal bytes if their bodies have one order in memory. Worlds of thousands of bodies sort them by the
+// clock (World::reorder): compare state_hash(), or call reorder() on both before a last step.
 #pragma once
 
 #include <cstddef>
