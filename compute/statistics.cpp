@@ -85,7 +85,7 @@ bool is_gone(const State& state, std::uint32_t row) {
 }
 
 // Whether a contact ended within the last step by sliding off (contact_solver.h).
-bool has_slid_off(const State& state, const physics::Contact& contact, const physics::Impulse& impulse) {
+bool has_slid_off(const State& state, const physics::Contact& contact, const physics::ContactImpulse& impulse) {
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
     return impulse.slide_distance > physics::slide_limit_of(contact, ta, tb, physics::anchor_of(contact, ta, tb));
 }

@@ -144,7 +144,7 @@ void for_each_of_block(const State& state, std::size_t begin, const Work& work) 
 physics::BlockLoad load_of_block(const State& state, std::size_t first) {
     physics::BlockLoad load = physics::no_load();
     for_each_of_block(state, first,
-                      [&](std::size_t i, bool) { load = physics::with_contact(load, state.constraints[i], state.impulses[i]); });
+                      [&](std::size_t i, bool) { load = physics::with_contact(load, state.constraints[i], state.impulse(i)); });
     return load;
 }
 
@@ -175,7 +175,7 @@ void hand_out_first(State& state, std::size_t first) {
     float of_block = 0;
     for_each_of_block(state, first, [&](std::size_t i, bool is_last) {
         const physics::Constraint& c = state.constraints[i];
-        const physics::Impulse& impulse = state.impulses[i];
+        const physics::Impulse impulse = state.impulse(i);
         const physics::ContactShare share =
             physics::first_share(c, impulse, velocities_of(state, c), state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
         hand_out(state, c, share.change, weight_of_block(share.weight, is_last, of_block), impulse.normal_sum);
@@ -200,7 +200,7 @@ void solve_block(State& state, std::size_t first) {
     const physics::Constraint& of_first = state.constraints[first];
     if (physics::follows_in_block(of_first)) return;
     const physics::BlockLoad load = load_of_block(state, first);
-    const physics::Impulse lent = with_load(state.impulses[first], load);
+    const physics::Impulse lent = with_load(state.impulse(first), load);
     const physics::Mass ma = physics::split_mass(state.masses[of_first.a], lent, state.fixed());
     const physics::Mass mb = physics::split_mass(state.masses[of_first.b], lent, state.fixed());
     const float part = physics::part_of_stiffness(load);
@@ -208,8 +208,8 @@ void solve_block(State& state, std::size_t first) {
     for_each_of_block(state, first, [&](std::size_t i, bool) {
         const physics::Constraint& c = state.constraints[i];
         const physics::SolveResult after =
-            physics::solve_contact(c, state.impulses[i], v, ma, mb, impact_state(state, c), part, felt_by(state, c.a));
-        state.impulses[i] = after.impulse;
+            physics::solve_contact(c, state.impulse(i), v, ma, mb, impact_state(state, c), part, felt_by(state, c.a));
+        state.keep_impulse(i, after.impulse);
         hand_out(state, c, physics::to_body_deltas(v, after.pair_velocity, ma, mb), after.impulse.impact_weight,
                  physics::impact_debt(after.impulse));
         v = after.pair_velocity;
@@ -221,7 +221,7 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
     const physics::Constraint& of_last = state.constraints[last_contact];
     if (physics::leads_in_block(of_last)) return;
     const physics::BlockLoad load = load_of_block(state, last_contact);
-    const physics::Impulse lent = with_load(state.impulses[last_contact], load);
+    const physics::Impulse lent = with_load(state.impulse(last_contact), load);
     const physics::Mass ma = physics::impact_mass(lent, state.masses[of_last.a], state.forces[of_last.a], state.fixed());
     const physics::Mass mb = physics::impact_mass(lent, state.masses[of_last.b], state.forces[of_last.b], state.fixed());
     const float part = physics::part_of_stiffness(load);
@@ -230,18 +230,18 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
     float of_block = 0;
     for_each_of_block(state, last_contact, [&](std::size_t i, bool is_last) {
         const physics::Constraint& c = state.constraints[i];
-        physics::Impulse& impulse = state.impulses[i];
-        const float debt = physics::part_of_debts(impulse, state.impact_debts[c.a], state.forces[c.a], ma,
-                                                  state.impact_debts[c.b], state.forces[c.b], mb);
-        const physics::SolveResult after = physics::relax_contact(c, impulse, moved, v, ma, mb, impact_state(state, c), debt,
-                                                                  part, last ? 1.0f : 0.0f, felt_by(state, c.a));
+        const physics::Impulse biased = state.impulse(i);
+        const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], ma, state.impact_debts[c.b],
+                                                  state.forces[c.b], mb);
+        const physics::SolveResult after = physics::relax_contact(c, biased, moved, v, ma, mb, impact_state(state, c), debt, part,
+                                                                  last ? 1.0f : 0.0f, felt_by(state, c.a));
         if (felt) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = begins ? carried : state.carried[i] + carried;
         }
-        const physics::Impulse biased = impulse;
-        impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
+        physics::Impulse impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
         impulse.normal_sum = physics::normal_impulse(impulse);
+        state.keep_impulse(i, impulse);
         physics::VelocityPair share = physics::to_body_deltas(v, after.pair_velocity, ma, mb);
         const float weight = physics::counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(state, c.a));
         if (!last) share = physics::warm_start(c, impulse, share, ma, mb);

@@ -17,7 +17,7 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
     if (pair.previous == physics::NONE) return physics::without_impulses(state.contacts[i]);
     const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
     const physics::Contact& before = state.contacts_before[pair.previous];
-    const physics::Impulse& was = state.impulses_before[pair.previous];
+    const physics::Impulse was = state.impulse_before(pair.previous);
     physics::PreparedContact prepared =
         physics::is_carried_forward(pair.pair_type)
             ? physics::carried_forward(before, was, state.pair_manifolds[state.contact_pairs[i]])
@@ -29,7 +29,7 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
         prepared.contact.load = physics::load_since(before, was, ta, slot_a, tb, slot_b);
     if (idle) return prepared;
     prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
-    if (physics::rebounds_across(prepared.impulse)) {
+    if (physics::rebounds_across(physics::contact_impact_of(prepared.impulse))) {
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const physics::Parameters felt = felt_by(state, a);
         prepared.impulse = physics::settled_impact(
@@ -66,7 +66,7 @@ void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::PreparedContact prepared = warm_started_contact(state, i);
         state.contacts[i].load = prepared.contact.load;
         state.contacts[i].unrest = prepared.contact.unrest;
-        state.impulses[i] = prepared.impulse;
+        state.keep_impulse(i, prepared.impulse);
     });
 }
 

@@ -65,7 +65,7 @@ void return_excess_impulse(State& state, const Threads& threads, std::uint32_t) 
             const physics::Constraint& c = state.constraints[contact];
             const float kept = std::min(state.forces[c.a].kept, state.forces[c.b].kept);
             if (kept >= 1 || integrate_position(state, contact) <= 0) return;
-            velocity = physics::given_back(velocity, physics::whole_mass(state.masses[i]), c, state.impulses[contact], side,
+            velocity = physics::given_back(velocity, physics::whole_mass(state.masses[i]), c, state.impulse(contact), side,
                                            integrate_position(state, contact) * (1 - kept));
         });
         state.velocities[i] = physics::clamp_velocity(velocity, state.fixed());

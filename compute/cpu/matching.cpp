@@ -62,7 +62,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate, s
 // Whether the pair's contact of the last step may persist (persistence.h).
 bool may_persist(const State& state, const physics::Pair& pair) {
     return pair.pair_type != physics::PAIR_INACTIVE && pair.previous != physics::NONE &&
-           physics::may_persist(state.impulses_before[pair.previous], state.row_kinds[pair.a] & ~still_kind,
+           physics::may_persist(state.impulse_before(pair.previous), state.row_kinds[pair.a] & ~still_kind,
                                 state.row_kinds[pair.b] & ~still_kind) &&
            physics::has_weight(felt_by(state, state.body_of(pair.a)));
 }

@@ -190,7 +190,7 @@ void collide_inactive(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(last - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const std::size_t previous = state.pairs[index].previous;
-        state.pair_manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
+        state.pair_manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulse_before(previous));
         state.point_counts[index] = state.contacts_before[previous].count;
     });
 }

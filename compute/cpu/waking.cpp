@@ -28,7 +28,7 @@ bool stirred(const State& state, std::uint32_t body) {
 bool wakes(State& state, const physics::Pair& pair, std::uint32_t sleeper, std::uint32_t other, float approach) {
     const bool restless = physics::is_restless(state.properties[other].motion, rest_of(state, other));
     const bool touched = pair.previous != physics::NONE;
-    return physics::wakes(restless, approach, touched ? physics::normal_impulse(state.impulses_before[pair.previous]) : 0,
+    return physics::wakes(restless, approach, touched ? physics::normal_impulse(state.impulse_before(pair.previous)) : 0,
                           touched ? state.contacts_before[pair.previous].load : 0, state.properties[sleeper],
                           felt_by(state, sleeper));
 }

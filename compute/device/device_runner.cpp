@@ -28,8 +28,9 @@ std::size_t binding_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].buffer;
 }
 
-constexpr std::array read_while_changing{Table::poses,    Table::velocities, Table::masses, Table::forces,
-                                         Table::impulses, Table::slots};  // shaders/stages/lib/read_coherent.glsl
+constexpr std::array read_while_changing{
+    Table::poses,    Table::velocities, Table::masses, Table::forces,
+    Table::impulses, Table::impacts,    Table::slots};  // shaders/stages/lib/read_coherent.glsl
 
 static_assert(host::tables_of_a_step.storage == buffer_count - 1);  // without the parameters
 static_assert(host::tables_of_a_step.texels == buffer_count);

@@ -38,10 +38,13 @@ RowMover::Tables DeviceRunner::tables_to_move() const {
     for (std::size_t k = 0; k < physics::MOST_WHEELS; ++k)
         follow(Table::vehicles, vehicles,
                offsetof(physics::Vehicle, wheel) + k * sizeof(physics::VehicleWheel) + offsetof(physics::VehicleWheel, body));
-    if (contacts > 0)
-        for (const auto& [now, before] :
-             {std::pair(Table::contacts, Table::contacts_before), std::pair(Table::impulses, Table::impulses_before)})
-            tables.of_contacts.emplace_back(records_of(now, contacts), &buffer(before));
+    const auto take_along = [&](Table now, Table before) {
+        const std::size_t count = state_->live(table_infos()[static_cast<std::size_t>(now)].length);
+        if (count > 0) tables.of_contacts.emplace_back(records_of(now, count), &buffer(before));
+    };
+    take_along(Table::contacts, Table::contacts_before);
+    take_along(Table::impulses, Table::impulses_before);
+    take_along(Table::impacts, Table::impacts_before);
     return tables;
 }
 

@@ -104,12 +104,21 @@ void DeviceSide::store(const TableRanges& ranges) {
     with_marks([](physics::uint& flags, physics::uint) { flags &= ~marks; });
 }
 
+TableRanges DeviceSide::contacts_of(std::size_t count) const {
+    return {{Table::contacts, 0, count}, {Table::impulses, 0, count}, {Table::impacts, 0, state_->bounces() ? count : 0}};
+}
+TableRanges DeviceSide::contacts_before_of(std::size_t count) const {
+    return {{Table::contacts_before, 0, count},
+            {Table::impulses_before, 0, count},
+            {Table::impacts_before, 0, state_->bounces() ? count : 0}};
+}
+
 void DeviceSide::fetch_contacts() {
     if (!device_) return;
     fetch_counts();
     fetch({Table::first_contacts});
     const std::size_t count = state_->counted().contacts;
-    TableRanges wanted{{Table::contacts, 0, count}, {Table::impulses, 0, count}};
+    TableRanges wanted = contacts_of(count);
     if (state_->features().sums) wanted.push_back({Table::carried, 0, count});
     fetch(wanted);
 }
@@ -117,7 +126,7 @@ void DeviceSide::fetch_contacts() {
 void DeviceSide::store_contacts() {
     const std::size_t count = state_->counted().contacts;
     store_counts();
-    store({{Table::contacts, 0, count}, {Table::impulses, 0, count}});
+    store(contacts_of(count));
     store({Table::first_contacts});
 }
 
@@ -139,7 +148,7 @@ void DeviceSide::fetch_for_new_rows() {
     if (!device_) return;
     fetch({Table::properties, Table::strains, Table::scaled_motions, Table::slot_ends, Table::first_contacts});
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
-    fetch({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
+    fetch(contacts_before_of(count));
 }
 
 void DeviceSide::store_new_rows(const Share::Changes& changes) {
@@ -158,7 +167,7 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     store({Table::properties, Table::ids, Table::poses, Table::velocities, Table::forces, Table::sleep_states, Table::masses,
            Table::scaled_motions, Table::strains, Table::slot_ends, Table::first_contacts});
-    store({{Table::contacts_before, 0, count}, {Table::impulses_before, 0, count}});
+    store(contacts_before_of(count));
     device_->resume_step();
 }
 

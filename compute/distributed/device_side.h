@@ -57,6 +57,9 @@ public:
 
 private:
     TableRanges ranges(std::initializer_list<Table> tables, Rows rows) const;
+    // The contacts of this step, and of the last one, with their impulses.
+    TableRanges contacts_of(std::size_t count) const;
+    TableRanges contacts_before_of(std::size_t count) const;
 
     Make make_;
     std::unique_ptr<StagedRunner> device_;

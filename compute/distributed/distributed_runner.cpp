@@ -27,7 +27,7 @@ bool starts_with(const std::string& text, const char* begin) {
 // Tables that are gathered together, for their numbers differ by rank.
 bool is_of_contacts(Table table) {
     using enum Table;
-    return table == contacts || table == impulses || table == first_contacts || table == carried;
+    return table == contacts || table == impulses || table == impacts || table == first_contacts || table == carried;
 }
 
 TableRanges without_contacts(TableRanges ranges) {
@@ -328,7 +328,7 @@ void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
     const auto note = [&](Table table) { gathered_[static_cast<std::size_t>(table)] = true; };
     for (const TableRange& range : missing) {
         if (is_of_contacts(range.table)) {
-            for (const Table table : {contacts, impulses, first_contacts, carried}) note(table);
+            for (const Table table : {contacts, impulses, impacts, first_contacts, carried}) note(table);
             continue;
         }
         switch (range.table) {

@@ -41,7 +41,7 @@ void gather_contacts(State& state, Exchange& exchange) {
     for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
             if (state.tells_of(state.contacts[k]))
-                put(said, TracedContact{{row, state.contacts[k], state.impulses[k]},
+                put(said, TracedContact{{row, state.contacts[k], state.impulse(k)},
                                         k < state.carried.size() ? state.carried[k] : 0.0f});
     std::vector<TracedContact> all;
     for (const Bytes& told : exchange.gather(said))
@@ -107,6 +107,7 @@ void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges) 
                 break;
             case contacts:
             case impulses:
+            case impacts:
             case first_contacts:
             case carried:
                 any_contacts = true;

@@ -156,7 +156,7 @@ void Ownership::give_contacts(State& state, Exchange& exchange) {
             for (const std::uint32_t end : {state.body_of(contact.a), state.body_of(contact.b)})
                 if (has_started(state, end) && owner_of(state, end) != exchange.rank())
                     contacts[static_cast<std::size_t>(owner_of(state, end))].push_back(
-                        by_ids(state, {row, contact, state.impulses_before[k]}));
+                        by_ids(state, {row, contact, state.impulse_before(k)}));
         }
     std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) put_list(to[r], contacts[r]);
@@ -305,7 +305,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             const int to_a = leaves_for(contact.a), to_b = leaves_for(contact.b);
-            const OwnedContact told_contact = by_ids(state, {row, contact, state.impulses_before[k]});
+            const OwnedContact told_contact = by_ids(state, {row, contact, state.impulse_before(k)});
             if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back(told_contact);
             if (to_b >= 0 && to_b != to_a) contacts[static_cast<std::size_t>(to_b)].push_back(told_contact);
         }
@@ -420,7 +420,7 @@ void merge_contacts(State& state, const std::vector<OwnedContact>& more,
         const std::uint32_t from = all[k].from;
         ++state.first_contacts[all[k].owner + 1];
         state.contacts_before[k] = from < before ? state.contacts[from] : more[from - before].contact;
-        state.impulses_before[k] = from < before ? state.impulses[from] : more[from - before].impulse;
+        state.keep_impulse_before(k, from < before ? state.impulse(from) : more[from - before].impulse);
     }
     state.turn_over();
     std::partial_sum(state.first_contacts.begin(), state.first_contacts.end(), state.first_contacts.begin());

@@ -113,7 +113,7 @@ private:
                 state_.contacts_before[k] = state_.contacts[old];
                 follow(state_.contacts_before[k].a);
                 follow(state_.contacts_before[k].b);
-                state_.impulses_before[k] = state_.impulses[old];
+                state_.keep_impulse_before(k, state_.impulse(old));
             }
         }
         state_.turn_over();

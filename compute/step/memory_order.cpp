@@ -150,6 +150,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     if (with_contacts) {
         contacts_before.resize(contacts.size());
         impulses_before.resize(impulses.size());
+        impacts_before.resize(impacts.size());
         first_in_rows.resize(first_contacts.size());
         for (std::uint32_t row = 0; row < all; ++row)
             first_in_rows[row + 1] = first_in_rows[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
@@ -159,7 +160,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
                 contacts_before[place] = contacts[k];
                 follow(contacts_before[place].a);
                 follow(contacts_before[place].b);
-                impulses_before[place] = impulses[k];
+                keep_impulse_before(place, impulse(k));
             }
         });
     }

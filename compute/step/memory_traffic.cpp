@@ -22,6 +22,7 @@ struct Step {
     std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, pair_types = 0, pairs = 0, contacts = 0, solver_contacts = 0,
                 slots = 0, joints = 0, vehicles = 0;
     std::size_t actions = 0, ccd_pairs = 0, stirred = 0, breakable = 0;
+    bool bounces = false;
     std::vector<std::size_t> of_pair_type, hulls_of_pair_type;
 
     explicit Step(const State& state) {
@@ -40,6 +41,7 @@ struct Step {
         ccd_pairs = c.arguments[physics::WORK_CCD_PAIRS].x ? pairs : 0;
         stirred = c.sleepers ? contacts : 0;
         breakable = state.has_fractures() ? solver_contacts : 0;
+        bounces = state.bounces();
         for (physics::uint k = 0; k < physics::PAIR_TYPES; ++k)
             of_pair_type.push_back(c.pair_type_first[k + 1] - c.pair_type_first[k]);
         count_hulls(state);
@@ -92,6 +94,10 @@ struct Step {
                 return solver_contacts;
             case Amount::breakable:
                 return breakable;
+            case Amount::rebounds:
+                return bounces ? contacts : 0;
+            case Amount::solver_rebounds:
+                return bounces ? solver_contacts : 0;
             case Amount::slots:
                 return slots;
             case Amount::binned:

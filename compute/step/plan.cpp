@@ -175,6 +175,10 @@ Table other_parity(Table table) {
             return impulses_before;
         case impulses_before:
             return impulses;
+        case impacts:
+            return impacts_before;
+        case impacts_before:
+            return impacts;
         default:
             return table;
     }

@@ -125,8 +125,8 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
         found});
     // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
-        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifold_places}, {manifolds}, {impulses_before}},
-        {{point_counts}, {bounds}}});
+        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifold_places}, {manifolds}, {impacts_before}},
+        {{point_counts}, {bounds}}, physics::FEATURE_BOUNCES});
     declare_convex(all);
     all.push_back({"cull_speculative", DispatchDomain::ccd_pairs, cull_speculative,
         {{counts}, {point_counts, A::ccd_pairs}, {pairs}, {properties}, {bounds}},
@@ -173,8 +173,8 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, some_only({contact_slots, A::contacts}), {block_bodies}, {counts}}, physics::FEATURE_REORDERED});
     all.push_back({"warm_start_contacts", DispatchDomain::contacts, warm_start_contacts,
         {{counts}, {contact_pairs, A::contacts}, {pairs, A::contacts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {contacts_before, A::contacts}, {impulses_before, A::contacts},
-         {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
-        {{contacts, A::contacts, 1}, {impulses, A::contacts}}, physics::FEATURE_BOUNCES | felt});
+         {impacts_before, A::rebounds}, {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
+        {{contacts, A::contacts, 1}, {impulses, A::contacts}, {impacts, A::rebounds}}, physics::FEATURE_BOUNCES | felt});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
@@ -193,8 +193,9 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{velocities, A::movers}, {masses, A::movers, 1}, {scaled_motions}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS | physics::FEATURE_GRAVITIES});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
-        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
-        {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {masses, A::movers}, {velocities, A::movers}, {forces},
+         {gravities}, {ids}},
+        {{impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots},
          {joint_equations, A::joints}},
@@ -203,9 +204,9 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
-        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {impact_debts}, {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
-        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots}), unfinished({neighbours_quiet})}, features | physics::FEATURE_SUMS});
+        {{impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, unfinished({carried, A::breakable}), in_parts({slots, A::slots}), unfinished({neighbours_quiet})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends},
          {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},

@@ -50,7 +50,9 @@ enum class Amount {
     pairs,
     contacts,
     solver_contacts,
-    breakable,  // solver_contacts, if some body may break, else none
+    breakable,        // solver_contacts, if some body may break, else none
+    rebounds,         // contacts, if some body has restitution, else none
+    solver_rebounds,  // solver_contacts, likewise
     slots,
     binned,         // pairs of the stage's pair type
     binned_bodies,  // their bodies

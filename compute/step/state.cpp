@@ -64,6 +64,8 @@ std::size_t State::allocated(BufferLength length) const {
             return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{physics::buckets_in_all(p)}}) / block + 2;
         case BufferLength::contacts:
             return p.contact_capacity;
+        case BufferLength::impacts:
+            return bounces() ? p.contact_capacity : 0;
         case BufferLength::contact_sides:
             return 2 * std::size_t{p.contact_capacity};
         case BufferLength::slots:
@@ -121,6 +123,8 @@ std::size_t State::live(BufferLength length) const {
             return physics::PAIR_TYPES * physics::pair_blocks_of(c.pairs);
         case BufferLength::contacts:
             return c.contacts;
+        case BufferLength::impacts:
+            return bounces() ? c.contacts : 0;
         case BufferLength::contact_sides:
             return 2 * std::size_t{c.contacts};
         case BufferLength::slots:
@@ -142,7 +146,7 @@ SceneFeatures State::features() const {
     found.surfaces = !surfaces.empty();
     found.filters = !filters.empty();
     found.sums = found.breaking || sums_impulses;
-    found.bounces |= fixed().least_restitution > 0;
+    found.bounces = bounces();
     found.copies = has_copies();
     found.gravities = !gravities.empty();
     found.ghosts = marks_foreign;
@@ -167,6 +171,17 @@ void State::note_content(std::span<const physics::BodyProperties> rows) {
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }
+    fit_impacts();
+}
+
+void State::fit_impacts() {
+    for (const Table table : {Table::impacts, Table::impacts_before})
+        if (all_ || !raw(table).empty()) make(table);
+}
+
+void State::clear_impacts() {
+    make(Table::impacts);
+    std::fill(impacts.begin(), impacts.end(), physics::no_impact());
 }
 
 void State::index_surfaces() {
@@ -239,6 +254,7 @@ std::optional<std::uint32_t> State::take_part_rows(std::uint32_t count) {
 void State::turn_over() {
     contacts.swap(contacts_before);
     impulses.swap(impulses_before);
+    impacts.swap(impacts_before);
 }
 
 // A quarter more; of a long list a sixteenth, as each repeated step costs little beside the steps between.
@@ -264,8 +280,8 @@ void State::shrink_contacts(std::uint32_t capacity) {
     fixed().contact_capacity = capacity;
     allocate();
     const auto shrink = [](auto&... tables) { (tables.shrink_to_fit(), ...); };
-    shrink(contacts, contacts_before, impulses, impulses_before, constraints, contacts_to_solve, contact_owners, contact_pairs,
-           contact_slots, carried, slots, slot_sides, neighbours_quiet);
+    shrink(contacts, contacts_before, impulses, impulses_before, impacts, impacts_before, constraints, contacts_to_solve,
+           contact_owners, contact_pairs, contact_slots, carried, slots, slot_sides, neighbours_quiet);
 }
 
 bool State::has_joints() const {

@@ -19,6 +19,7 @@
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
+#include "shaders/physics/solve/contact_impulse.h"
 #include "shaders/stages/lib/tables.h"
 
 namespace scree {
@@ -38,6 +39,7 @@ enum class BufferLength {
     candidates,
     scan_blocks,
     contacts,
+    impacts,
     contact_sides,
     slots,
     hulls,
@@ -242,6 +244,34 @@ struct State {
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : properties[row].owner;
     }
+    // Whether contacts may have impacts: tables of impacts have a record for each contact, else none.
+    bool bounces() const {
+        return row_content_.bounces || fixed().least_restitution > 0;
+    }
+    // The impulse of a contact, and of one of the last step, with its impact.
+    physics::Impulse impulse(std::size_t contact) const {
+        return physics::whole_impulse(impulses[contact], bounces() ? impacts[contact] : physics::no_impact());
+    }
+    physics::Impulse impulse_before(std::size_t contact) const {
+        return physics::whole_impulse(impulses_before[contact], bounces() ? impacts_before[contact] : physics::no_impact());
+    }
+    void keep_impulse(std::size_t contact, const physics::Impulse& impulse) {
+        impulses[contact] = physics::contact_impulse_of(impulse);
+        if (bounces()) impacts[contact] = physics::contact_impact_of(impulse);
+    }
+    void keep_impulse_before(std::size_t contact, const physics::Impulse& impulse) {
+        impulses_before[contact] = physics::contact_impulse_of(impulse);
+        if (bounces()) impacts_before[contact] = physics::contact_impact_of(impulse);
+    }
+    // Has bounces() from now on, until features are noted anew.
+    void note_restitution() {
+        row_content_.bounces = true;
+        fit_impacts();
+    }
+    // Gives the tables of impacts that are here the length that follows from bounces(); records added are 0.
+    void fit_impacts();
+    // For bounces() that begins between two steps: impacts of the contacts that are there already, none.
+    void clear_impacts();
     bool has_copies() const {
         return physics::has_copies(fixed());
     }

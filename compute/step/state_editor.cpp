@@ -82,6 +82,7 @@ TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
     const std::size_t contacts = state_.live(BufferLength::contacts);
     TableRanges needed = joint_ranges(state_);
     append(needed, {{Table::contacts, 0, contacts}, {Table::impulses, 0, contacts}});
+    if (state_.bounces()) needed.push_back({Table::impacts, 0, contacts});
     return needed;
 }
 
@@ -89,13 +90,14 @@ TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
     const TableRanges changed = needed_to_tune(settings);
     const float h_before = state_.fixed().h;
     state_.fixed() = tuned(state_.fixed(), gravity, settings);
+    state_.fit_impacts();
     if (settings.substeps == state_.substeps) return {};
     state_.substeps = settings.substeps;
     const float factor = state_.fixed().h / h_before;
     const std::size_t lasting =
         std::min<std::size_t>(state_.counted().contacts, std::min(state_.contacts.size(), state_.impulses.size()));
     for (std::size_t i = 0; i < lasting; ++i) {
-        state_.impulses[i] = scaled(state_.impulses[i], factor);
+        state_.keep_impulse(i, scaled(state_.impulse(i), factor));
         state_.contacts[i].load *= factor;
     }
     for (physics::Joint& joint : state_.joints) {

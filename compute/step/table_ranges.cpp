@@ -71,7 +71,7 @@ TableRanges vehicle_ranges(const State& state) {
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : row_tables) ranges.push_back(live_range(state, table));
-    for (const Table table : {Table::contacts, Table::impulses, Table::first_contacts})
+    for (const Table table : {Table::contacts, Table::impulses, Table::impacts, Table::first_contacts})
         ranges.push_back(live_range(state, table));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));

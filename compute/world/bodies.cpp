@@ -110,6 +110,14 @@ void World::Impl::keep_original(std::size_t body) {
 void World::Impl::send(const TableRanges& changed, const TableLengths& before) {
     if (TableLengths::of(state) != before) runner->adapt();
     runner->upload(changed);
+    begin_impacts(before.features);
+}
+
+// Restitution may be new: contacts that are there already are in no impact.
+void World::Impl::begin_impacts(const SceneFeatures& before) {
+    if (before.bounces || !state.bounces()) return;
+    state.clear_impacts();
+    runner->upload({{Table::impacts, 0, state.live(BufferLength::impacts)}});
 }
 
 // Each body with its fragments. Bodies without any are checked together, and share hulls.

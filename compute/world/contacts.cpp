@@ -48,7 +48,7 @@ std::vector<ContactState> World::contacts() const {
     all.reserve(state.counted().contacts);
     for (const std::uint32_t i : contacts_by_id(state)) {
         const physics::Contact& contact = state.contacts[i];
-        const physics::Impulse& impulse = state.impulses[i];
+        const physics::ContactImpulse& impulse = state.impulses[i];
         ContactState& made = all.emplace_back();
         std::tie(made.a, made.part_a) = side(contact.a);
         std::tie(made.b, made.part_b) = side(contact.b);

@@ -120,6 +120,7 @@ void World::Impl::retune(const Settings& changed) {
     const TableRanges ranges = editor.tune(scene.gravity, settings);
     if (other_substeps || state.features() != features) runner->adapt();
     runner->upload(ranges);
+    begin_impacts(features);
 }
 
 void World::set_fields(const Fields& fields) {

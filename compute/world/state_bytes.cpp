@@ -17,8 +17,6 @@ namespace scree {
 
 namespace {
 
-constexpr std::array contact_tables{Table::contacts, Table::impulses};
-
 std::size_t record_bytes(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].record_bytes;
 }
@@ -76,12 +74,14 @@ std::vector<physics::BlockBody> portable(std::vector<physics::BlockBody> members
 
 }  // namespace
 
-std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, SteppedTables which) {
+std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, bool bounces,
+                                                          SteppedTables which) {
     if (which == SteppedTables::on_device) return {{Table::properties, rows}};
     std::vector<std::pair<Table, std::size_t>> all;
     for (const Table table : row_tables) all.emplace_back(table, rows);
     all.emplace_back(Table::first_contacts, rows + 1);
-    for (const Table table : contact_tables) all.emplace_back(table, contacts);
+    for (const Table table : {Table::contacts, Table::impulses}) all.emplace_back(table, contacts);
+    if (bounces) all.emplace_back(Table::impacts, contacts);
     return all;
 }
 
@@ -114,11 +114,13 @@ std::uint64_t layout_of_tables() {
     return hash;
 }
 
-void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts) {
+void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts,
+                 bool bounces) {
     out.put(portable(parameters));
     out.put(portable(counts));
     out.put(static_cast<std::int32_t>(state.substeps));
     out.put(state.body_count);
+    out.put(bounces);
     out.put_list(std::span(state.is_share() ? std::vector<std::uint32_t>() : state.rows()));
     out.put_list(std::span(state.joint_records));
 }
@@ -142,8 +144,8 @@ void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_star
 }
 
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
-    put_numbers(out, state, state.fixed(), state.counted());
-    const auto stepped = stepped_tables(state.fixed().bodies, state.counted().contacts, which);
+    put_numbers(out, state, state.fixed(), state.counted(), state.bounces());
+    const auto stepped = stepped_tables(state.fixed().bodies, state.counted().contacts, state.bounces(), which);
     std::size_t bytes = 0;
     for (const auto& [table, count] : stepped) bytes += count * record_bytes(table);
     out.reserve(bytes + bytes / 16);
@@ -156,12 +158,13 @@ StateBytes::StateBytes(ByteReader& in, const State& own, const StartLengths& at_
       counts_(in.take<physics::Counts>()),
       substeps_(in.take<std::int32_t>()),
       body_count_(in.take<std::uint32_t>()),
+      bounces_(in.take<bool>()),
       rows_(in.take_list<std::uint32_t>()),
       joint_records_(in.take_list<std::uint32_t>()),
       at_start_(at_start),
       which_(which) {
     const std::size_t rows = parameters_.bodies;
-    for (const auto& [table, count] : stepped_tables(rows, counts_.contacts, which))
+    for (const auto& [table, count] : stepped_tables(rows, counts_.contacts, bounces_, which))
         tables_.emplace_back(table, in.take_bytes(count * record_bytes(table)));
     joints_ = in.take_records(sizeof(physics::Joint));
     joint_blocks_ = in.take_records(sizeof(physics::JointBlock));
@@ -256,11 +259,21 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.immersions, shapes_[8]);
     assign(state.births, shapes_[9]);
     assign(state.gravities, shapes_[10]);
-    for (const auto& [table, count] : stepped_tables(0, 0, SteppedTables::all)) state.make(table);
+    for (const auto& [table, count] : stepped_tables(0, 0, false, SteppedTables::all)) state.make(table);
     state.allocate();
-    for (const auto& [table, bytes] : tables_)
-        if (!bytes.empty()) std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
+    std::span<const std::byte> impacts;
+    for (const auto& [table, bytes] : tables_) {
+        if (table == Table::impacts)
+            impacts = bytes;
+        else if (!bytes.empty())
+            std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
+    }
     state.take_rows(rows_);
+    if (bounces_) state.note_restitution();  // of a body that is gone, too
+    if (which_ == SteppedTables::all) {
+        state.clear_impacts();
+        if (!impacts.empty()) std::memcpy(state.impacts.data(), impacts.data(), impacts.size());
+    }
     state.index_surfaces();
     TableRanges changed = which_ == SteppedTables::all ? lasting_ranges(state) : TableRanges{};
     changed.push_back({Table::counts, 0, 1});

@@ -39,7 +39,12 @@ StateParts::StateParts(const State& share, const Runner& runner) : state_(share)
     for_each_contact(0, rows_, [&](std::uint32_t, std::uint32_t) { ++own; });
     ByteWriter out;
     out.put(own);
-    for (const std::vector<std::byte>& one : runner.gather(out.bytes())) contacts_ += ByteReader(one).take<std::uint64_t>();
+    out.put(share.bounces());
+    for (const std::vector<std::byte>& one : runner.gather(out.bytes())) {
+        ByteReader in(one);
+        contacts_ += in.take<std::uint64_t>();
+        bounces_ |= in.take<bool>();
+    }
 }
 
 physics::Parameters StateParts::parameters() const {
@@ -58,18 +63,18 @@ physics::Counts StateParts::counts() const {
 
 std::uint64_t StateParts::bytes() const {
     std::uint64_t all = 0;
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_)) all += count * bytes_of_record(table);
+    for (const auto& [table, count] : stepped_tables(rows_, contacts_, bounces_)) all += count * bytes_of_record(table);
     return all;
 }
 
 void StateParts::put_tables(const Take& take) const {
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_)) {
+    for (const auto& [table, count] : stepped_tables(rows_, contacts_, bounces_)) {
         std::uint32_t before = 0;
         for (std::uint32_t first = 0; first < rows_; first += rows_of_piece) {
             const std::uint32_t last = std::min(first + rows_of_piece, rows_);
             if (table == Table::first_contacts)
                 put_first_contacts(first, last, before, take);
-            else if (table_infos()[static_cast<std::size_t>(table)].length == BufferLength::contacts)
+            else if (table == Table::contacts || table == Table::impulses || table == Table::impacts)
                 put_contacts(table, first, last, take);
             else
                 put_rows(table, first, last, take);
@@ -142,11 +147,12 @@ void StateParts::put_contacts(Table table, std::uint32_t first, std::uint32_t la
         physics::Contact contact = state_.contacts[k];
         for (physics::uint* row : {&contact.a, &contact.b}) *row = state_.id_of(*row);
         out.put(ContactPlace{whole, contact.a == whole ? contact.b : contact.a});
-        if (table == Table::contacts) {
+        if (table == Table::contacts)
             out.put(contact);
-        } else {
+        else if (table == Table::impulses)
             out.put(state_.impulses[k]);
-        }
+        else
+            out.put(physics::contact_impact_of(state_.impulse(k)));
     });
     const std::size_t bytes = bytes_of_record(table);
     std::vector<std::pair<ContactPlace, std::span<const std::byte>>> piece;

@@ -215,6 +215,7 @@ struct World::Impl {
     void pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed);
     void find_spare_hulls();
     void send(const TableRanges& changed, const TableLengths& before);
+    void begin_impacts(const SceneFeatures& before);
     // change_bodies.cpp
     void require_there(std::size_t body) const;  // throws std::invalid_argument for a body that has broken, or a fragment
     void set(std::span<const BodyChange> bodies);

@@ -21,7 +21,7 @@ struct HostDevice;  // host/vulkan/host_device.h
 struct TablesOfAStep {
     std::uint32_t storage, texels, changing_texels;
 };
-inline constexpr TablesOfAStep tables_of_a_step{25, 26, 6};
+inline constexpr TablesOfAStep tables_of_a_step{27, 28, 7};
 
 enum class DeviceKind { discrete, integrated, virtual_gpu, other, processor };  // in the order of preference
 

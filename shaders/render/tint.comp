@@ -18,7 +18,7 @@ const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
 const vec3 PLAIN = vec3(0.62, 0.33, 0.13);
 
 layout(std430, set = 0, binding = 12) readonly buffer ImpulseTable {
-    Impulse impulses[];
+    ContactImpulse impulses[];
 };
 layout(std430, set = 0, binding = 16) readonly buffer SlotEndTable {
     uint slot_ends[];  // end of each body's slots, which is the begin of the next body's

@@ -5,6 +5,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/persistence.h"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[PAIR_INACTIVE];
@@ -12,5 +13,5 @@ void main() {
     uint index = READ_WORD(pairs_by_type, i);
     uint previous = READ(pairs, index).previous;
     Contact contact = READ(contacts_before, previous);
-    keep_manifold(index, resting_manifold(contact, READ(impulses_before, previous)), contact.count);
+    keep_manifold(index, resting_manifold(contact, pushes_before(previous)), contact.count);
 }

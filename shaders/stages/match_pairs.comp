@@ -6,6 +6,7 @@
 #include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"
 #include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 // Binary search: contacts of an owner are sorted by the other body's id.
 uint contact_before(uint owner, uint other) {
@@ -47,7 +48,7 @@ void main() {
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
         if (pair.previous != NONE && has_weight(felt_by(of_a)) &&
-            may_persist(READ(impulses_before, pair.previous), ta.shape, tb.shape))
+            may_persist(pushes_before(pair.previous), ta.shape, tb.shape))
             kept = is_persistent(READ(contacts_before, pair.previous), ta, READ(poses, of_a), READ(velocities, of_a), tb,
                                  READ(poses, of_b), READ(velocities, of_b));
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);

@@ -6,6 +6,7 @@
 #include "shaders/stages/lib/contact_blocks.glsl"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {
     bool is_a = tyre_of(ta) != 0u;
@@ -64,7 +65,7 @@ void main() {
         uint next = next_in_block(k, place, shares, of_a, of_b);
         constraint = linked(constraint, before, next);
         constraints.at[k] = constraint;
-        Impulse impulse = READ(impulses, k);
+        Impulse impulse = pushes_at(k);
         ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, felt);
         of_block = larger(of_block, share.weight);
         float weight = next == 0u ? of_block : 0.0f;

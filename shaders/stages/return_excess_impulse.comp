@@ -5,6 +5,7 @@
 #include "shaders/physics/extra/fracture.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 void main() {
     uint i = thread();
@@ -20,7 +21,7 @@ void main() {
         float kept = smaller(READ(forces, c.a).kept, READ(forces, c.b).kept);
         float impulse = READ_FLOAT(carried, contact);
         if (!(kept < 1.0f) || !(impulse > 0.0f)) continue;
-        velocity = given_back(velocity, whole_mass(READ(masses, i)), c, READ(impulses, contact), READ_WORD(slot_sides, k) & 1u,
+        velocity = given_back(velocity, whole_mass(READ(masses, i)), c, pushes_at(contact), READ_WORD(slot_sides, k) & 1u,
                               impulse * (1.0f - kept));
     }
     velocities.at[i] = clamp_velocity(velocity, PARAMETERS);

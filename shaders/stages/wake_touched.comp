@@ -7,6 +7,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 void raise(uint body, uint bits) {
     if (bits != 0u && READ(properties, body).motion == MOTION_DYNAMIC) atomicOr(WORD(sleep_states, body), bits);
@@ -32,7 +33,7 @@ void main() {
         uint other = a_sleeps ? of_b : of_a;
         float now = 0.0f, then = 0.0f;
         if (pair.previous != NONE) {
-            now = normal_impulse(READ(impulses_before, pair.previous));
+            now = normal_impulse(pushes_before(pair.previous));
             then = READ(contacts_before, pair.previous).load;
         }
         woken = wakes(is_restless(READ(properties, other).motion, WORD(sleep_states, other)), approach, now, then,

@@ -5,6 +5,7 @@
 #include "shaders/physics/solve/contact_preparation.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 void main() {
     uint i = thread();
@@ -14,12 +15,12 @@ void main() {
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
     bool idle = is_idle(slot_a, slot_b);
     if (pair.previous == NONE) {
-        impulses.at[i] = prepared.impulse;
+        keep_impulse(i, prepared.impulse);
         return;
     }
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     Contact before = READ(contacts_before, pair.previous);
-    Impulse was = READ(impulses_before, pair.previous);
+    Impulse was = impulse_before(pair.previous);
     BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
     if (pair.pair_type == PAIR_INACTIVE)
         prepared = carried_forward(before, was, resting_manifold(before, was));
@@ -29,7 +30,7 @@ void main() {
         prepared = warm_started(prepared, before, was, ta, tb);
     if (!idle || pair.pair_type != PAIR_INACTIVE) prepared.contact.load = load_since(before, was, ta, slot_a, tb, slot_b);
     if (!idle) prepared.impulse.normal_sum = normal_impulse(prepared.impulse);
-    if (BOUNCES && !idle && rebounds_across(prepared.impulse)) {
+    if (BOUNCES && !idle && rebounds_across(contact_impact_of(prepared.impulse))) {
         Parameters felt = felt_by(of_a);
         VelocityPair now;
         now.a = READ(velocities, of_a);
@@ -37,7 +38,7 @@ void main() {
         prepared.impulse = settled_impact(prepared.impulse, constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
                                           constraint_of(before, ta, tb, slot_a, slot_b, felt), now);
     }
-    impulses.at[i] = prepared.impulse;
+    keep_impulse(i, prepared.impulse);
     contacts.at[i].load = prepared.contact.load;
     contacts.at[i].unrest = prepared.contact.unrest;
 }

@@ -6,6 +6,7 @@
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
+#include "tests/world/late_restitution.h"
 
 using namespace scree;
 
@@ -68,4 +69,21 @@ TEST_CASE("a device gives the bits and the events of the CPU while materials cha
             CHECK((here[k].kind == other[k].kind && here[k].a == other[k].a && here[k].b == other[k].b &&
                    here[k].impulse == other[k].impulse));
     }
+}
+
+TEST_CASE("restitution that comes and goes gives a device the bits of the CPU, also through checkpoints and in other rows",
+          "[vulkan]") {
+    const auto device = host::Device::open(
+        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+    const Scene scene = tests::heap_without_restitution();
+    World here(scene, {}, 1), there(scene, {}, make_device_runner(device)), moved(scene, {}, make_device_runner(device));
+    const std::vector<std::uint64_t> expected = tests::hashes_with_late_restitution(here);
+    REQUIRE(tests::hashes_with_late_restitution(there) == expected);
+    REQUIRE(tests::hashes_with_late_restitution(moved, [](World& world) {
+                const std::vector<std::byte> mark = world.save();
+                world.step(7);
+                world.restore(mark);
+                world.reorder();
+            }) == expected);
+    CHECK(there.save() == here.save());
 }

@@ -1,13 +1,18 @@
 // Materials of bodies and parts, against closed forms: combine rules, static friction, spinning, thresholds, conveyor belts.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "compute/cpu/reference_runner.h"
+#include "compute/distributed/distributed.h"
+#include "compute/distributed/in_process.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/step/state.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
+#include "tests/world/late_restitution.h"
 
 using namespace scree;
 
@@ -231,4 +236,27 @@ TEST_CASE("scene files keep materials, and refuse bad ones by their place") {
     CHECK_THAT(
         refused(R"("shape": {"compound": {"parts": [{"shape": {"sphere": {"radius": 1}}, "material": {"friction": -1}}]}})"),
         Contains("/bodies/0/shape/compound/parts/0/material/friction"));
+}
+
+TEST_CASE("restitution that comes and goes gives the same bits in lanes, one by one, on ranks and through checkpoints",
+          "[world]") {
+    const Scene scene = tests::heap_without_restitution();
+    World plain(scene, {}, std::make_unique<ReferenceRunner>(1, 1)), wide(scene, {}, 2), saved(scene, {}, 1);
+    const std::vector<std::uint64_t> expected = tests::hashes_with_late_restitution(plain);
+    REQUIRE(tests::hashes_with_late_restitution(wide) == expected);
+    World other(scene, {}, 1);
+    const std::vector<std::uint64_t> through_bytes = tests::hashes_with_late_restitution(saved, [&](World& world) {
+        const std::vector<std::byte> mark = world.save();
+        other.restore(mark);
+        CHECK(other.save() == mark);
+        world.step(7);
+        world.restore(mark);
+    });
+    REQUIRE(through_bytes == expected);
+    std::vector<std::vector<std::uint64_t>> of_ranks(2);
+    run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
+        World world(scene, {}, make_distributed_runner(exchange));
+        of_ranks[static_cast<std::size_t>(exchange->rank())] = tests::hashes_with_late_restitution(world);
+    });
+    for (const std::vector<std::uint64_t>& hashes : of_ranks) CHECK(hashes == expected);
 }

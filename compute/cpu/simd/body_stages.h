@@ -157,7 +157,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter_member<BodyForces>(tables.forces, live.only(!sound), offsetof(BodyForces, kept), Float(UNSOUND));
             after = moved_soundly(sound, before, after);
         }
-        if (tables.impacts)
+        if (tables.sums_impacts)
             scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impacts),
                                        impacts_of(sum.weight, group.properties));
         if (!none(sum.weight > 0.0f))

@@ -101,9 +101,11 @@ struct Group {
         kept_.impulse.center_offset = after.center_offset;
         kept_.impulse.normal_sum = after.normal_sum;
     }
-    // The table of impulses from what is kept.
+    // The tables of impulses and impacts from what is kept.
     SCREE_INLINE void give_back(const WideTables& tables, std::size_t first, std::size_t last) const {
-        scatter(tables.impulses, Indices(listed(tables.items, first, last)).only(live), kept_.impulse);
+        const Indices contacts = Indices(listed(tables.items, first, last)).only(live);
+        scatter(tables.impulses, contacts, contact_impulse_of(kept_.impulse));
+        if (!plain && tables.impacts != nullptr) scatter(tables.impacts, contacts, contact_impact_of(kept_.impulse));
     }
 };
 

@@ -14,7 +14,7 @@ struct Inherited {
     Float load, unrest;
     Uint slot_a, slot_b;
 };
-constexpr std::size_t words_of_impulse = sizeof(Impulse) / sizeof(Words);
+constexpr std::size_t words_of_impulse = sizeof(ContactImpulse) / sizeof(Words);
 constexpr std::uint32_t zero_impulse[words_of_impulse] = {};
 
 SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contacts, const BodyProperties& ta,
@@ -31,7 +31,7 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     const std::uint32_t* places[SCREE_LANES];
     for (int lane = 0; lane < lanes; ++lane)
         places[lane] = known.v[lane] != 0 ? tables.impulses_before + words_of_impulse * pair.previous.v[lane] : zero_impulse;
-    const Impulse was = gather_at<Impulse>(places);
+    const Impulse was = whole_impulse(gather_at<ContactImpulse>(places), no_impact());
     Inherited found{no_impulse(contact.center_offset), contact.load, contact.unrest, slot_a, slot_b};
     found.impulse.separation = separations_of(contact);
     if (!none(carried)) {
@@ -111,7 +111,9 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
         const Contact contact = gather<Contact>(tables.contacts, contacts);
         Kept& prepared = kept(tables, first);
         prepared.c = gather<Constraint>(tables.constraints, contacts);
-        prepared.impulse = gather<Impulse>(tables.impulses, contacts);
+        prepared.impulse =
+            whole_impulse(gather<ContactImpulse>(tables.impulses, contacts),
+                          tables.impacts != nullptr ? gather<ContactImpact>(tables.impacts, contacts) : no_impact());
         const Bool waits = point_count(prepared.c) == 0u;
         if (!none(waits)) {
             const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));

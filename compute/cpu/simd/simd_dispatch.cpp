@@ -34,6 +34,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.slot_ends = words(state.slot_ends);
     tables.contacts_before = words(state.contacts_before);
     tables.impulses_before = words(state.impulses_before);
+    tables.impacts_before = state.bounces() ? words(state.impacts_before) : nullptr;
     tables.contact_pairs = state.contact_pairs.data();
     tables.contact_slots = state.contact_slots.data();
     tables.pairs = words(state.pairs);
@@ -48,6 +49,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.scaled_motions = words(state.scaled_motions);
     tables.forces = words(state.forces);
     tables.impulses = words(state.impulses);
+    tables.impacts = state.bounces() ? words(state.impacts) : nullptr;
     tables.slots = words(state.slots);
     tables.impact_debts = state.impact_debts.data();
     tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
@@ -57,7 +59,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const SceneFeatures has = state.features();
     const bool usual = !has.bounces && !has.tyres && !has.surfaces;
     tables.plain = usual && !has.rolls;
-    tables.impacts = has.bounces || state.is_watched;
+    tables.sums_impacts = has.bounces || state.is_watched;
     tables.warm_starts = usual && !has.blocks && !state.is_watched;
     if (tables.warm_starts && !has.breaking) tables.constraints = nullptr;
     return tables;

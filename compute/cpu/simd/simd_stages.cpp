@@ -19,6 +19,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
+#include "shaders/physics/solve/contact_impulse.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"

@@ -14,6 +14,7 @@ struct WideTables {
     const std::uint32_t* slot_ends;
     const std::uint32_t* contacts_before;  // of the last step
     const std::uint32_t* impulses_before;
+    const std::uint32_t* impacts_before;  // null: no body has restitution
     const std::uint32_t* contact_pairs;
     const std::uint32_t* contact_slots;
     std::uint32_t* pairs;
@@ -28,6 +29,7 @@ struct WideTables {
     std::uint32_t* scaled_motions;
     std::uint32_t* forces;
     std::uint32_t* impulses;
+    std::uint32_t* impacts;  // likewise
     std::uint32_t* slots;
     // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`.
     std::uint32_t* out = nullptr;
@@ -37,15 +39,15 @@ struct WideTables {
     std::uint32_t* body_groups = nullptr;  // of the bodies in `items`: words_of_body for each, one body per lane
     bool plain = false;                    // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;                  // tables are read after every stage: impulses not after the last alone, impacts always
-    bool impacts = true;                   // some body may be in an impact with restitution, or `watched`
-    bool warm_starts = false;              // preparation warm-starts contacts from the last step, and is that of all contacts
-    bool prefetches = false;               // `groups` are larger than the second cache
-    float* impact_debts = nullptr;         // of each body, J (restitution.h)
-    float* carried = nullptr;              // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;               // Counts::steps in the first substep, for the hysteresis of mass splitting
-    const std::uint32_t* ages = nullptr;   // of each body, in place of `steps`, if there are several copies of the scene
-    bool first = false;                    // the first substep of a step
-    bool last = false;                     // the last one
+    bool sums_impacts = true;       // BodyForces.impacts is written: some body may be in an impact with restitution, or `watched`
+    bool warm_starts = false;       // preparation warm-starts contacts from the last step, and is that of all contacts
+    bool prefetches = false;        // `groups` are larger than the second cache
+    float* impact_debts = nullptr;  // of each body, J (restitution.h)
+    float* carried = nullptr;       // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;        // Counts::steps in the first substep, for the hysteresis of mass splitting
+    const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene
+    bool first = false;                   // the first substep of a step
+    bool last = false;                    // the last one
 };
 
 constexpr std::size_t words_of_body = 14;  // in body_groups

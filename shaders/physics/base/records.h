@@ -244,17 +244,11 @@ struct Contact {
     vec4 orientation_a;  // of A when made
     vec4 orientation_b;  // of B when made
 };
-struct Impulse {
+// Impulses of a contact and what they depend on, but for impacts.
+struct ContactImpulse {
     vec4 normal;           // per point, N s, >= 0; the next substep starts with these (contact_momentum.h)
     vec4 solved_normal;    // per point, of the last relax pass, N s
     vec4 separation;       // per point, m
-    vec4 impact;           // per point: impulse of an impact with restitution in the last pass, N s; else 0
-    float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
-    float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
-    float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
-    // That gravity adds to the rebound of its bodies in this substep, J. Of an impact on joints that lasts: between substeps the
-    // speed before its last push, m/s; within a substep what that push changed, of an impulse of 1, 1/kg.
-    float flight_energy;
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s
@@ -263,6 +257,30 @@ struct Impulse {
     float normal_sum;      // sum of `normal` as the substep began, N s
     vec3 stretch;          // way of B over A since the patch sticks (friction.h), in the tangent plane, world, m
     float turn;            // turn of B on A since, about the normal, rad
+};
+// The impact with restitution of a contact (restitution.h); all 0: none.
+struct ContactImpact {
+    vec4 impact;           // per point: impulse in the last pass, N s
+    float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
+    float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
+    float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
+    // That gravity adds to the rebound of its bodies in this substep, J. Of an impact on joints that lasts: between substeps the
+    // speed before its last push, m/s; within a substep what that push changed, of an impulse of 1, 1/kg.
+    float flight_energy;
+};
+// Both, as the solver computes with them (contact_impulse.h); tables have them apart, because most scenes have no restitution.
+struct Impulse {
+    vec4 normal, solved_normal, separation;
+    vec4 impact;
+    float rebound_energy, impact_energy, impact_weight, flight_energy;
+    vec3 friction;
+    float twist;
+    vec3 rolling;
+    float slide_distance;
+    vec3 center_offset;
+    float normal_sum;
+    vec3 stretch;
+    float turn;
 };
 
 // ---- contacts: solver data of this step

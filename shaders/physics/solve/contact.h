@@ -63,7 +63,7 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
 }
 
 // Whether an impact of the last step has energy left to return in this one.
-LAW bool rebounds_across(Impulse was) {
+LAW bool rebounds_across(ContactImpact was) {
     return was.impact_energy > 0.0f;
 }
 

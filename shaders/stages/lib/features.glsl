@@ -42,12 +42,5 @@ Constraint narrowed(Constraint c) {
     }
     return c;
 }
-Impulse narrowed(Impulse impulse) {
-    if (!BOUNCES) {
-        impulse.impact = vec4(0.0f);
-        impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
-    }
-    return impulse;
-}
 
 #endif

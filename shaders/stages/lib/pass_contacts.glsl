@@ -7,6 +7,7 @@
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/impulses.glsl"
 
 vec4 state_of_impacts(Constraint c) {
     if (!(c.restitution > 0.0f)) return vec4(0.0f);
@@ -20,7 +21,7 @@ BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
     uint before = i + 1u;
     for (uint here = next_of_block(c, 0u); here != 0u;) {
         c = READ(constraints, here - 1u);
-        load = with_contact(load, c, READ(impulses, here - 1u));
+        load = with_contact(load, c, impulse_at(here - 1u));
         uint next = next_of_block(c, before);
         before = here;
         here = next;
@@ -33,13 +34,7 @@ VelocityPair solve_one(uint i, Constraint c, Impulse impulse, VelocityPair befor
     vec4 state = state_of_impacts(c);
     SolveResult after = solve_contact(c, impulse, before, ma, mb, state, part, felt_by(c.a));
     impulses.at[i].normal = after.impulse.normal;
-    if (BOUNCES) {
-        impulses.at[i].impact = after.impulse.impact;
-        impulses.at[i].rebound_energy = after.impulse.rebound_energy;
-        impulses.at[i].impact_energy = after.impulse.impact_energy;
-        impulses.at[i].impact_weight = after.impulse.impact_weight;
-        impulses.at[i].flight_energy = after.impulse.flight_energy;
-    }
+    if (BOUNCES) impacts.at[i] = contact_impact_of(after.impulse);
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
     impulses.at[i].stretch = after.impulse.stretch;
@@ -59,7 +54,7 @@ void solve_contact(uint place) {
     uint i = READ_WORD(contacts_to_solve, place);
     Constraint c = narrowed(READ(constraints, i));
     if (BLOCKS && follows_in_block(c)) return;
-    Impulse impulse = narrowed(READ(impulses, i));
+    Impulse impulse = impulse_at(i);
     BlockLoad load = load_of_block(i, c, impulse);
     Impulse lent = impulse;
     lent.normal_sum = load.normal_sum;
@@ -73,7 +68,7 @@ void solve_contact(uint place) {
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
             c = narrowed(READ(constraints, here - 1u));
-            impulse = narrowed(READ(impulses, here - 1u));
+            impulse = impulse_at(here - 1u);
         }
         uint next = next_of_block(c, came_from);
         before = solve_one(here - 1u, c, impulse, before, ma, mb, part);
@@ -121,13 +116,7 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
-    if (BOUNCES) {
-        impulses.at[i].impact = impulse.impact;
-        impulses.at[i].rebound_energy = impulse.rebound_energy;
-        impulses.at[i].impact_energy = impulse.impact_energy;
-        impulses.at[i].impact_weight = impulse.impact_weight;
-        impulses.at[i].flight_energy = impulse.flight_energy;
-    }
+    if (BOUNCES) impacts.at[i] = contact_impact_of(impulse);
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
     impulses.at[i].stretch = impulse.stretch;
@@ -155,7 +144,7 @@ void relax_contact(uint place, uint pass) {
     uint i = READ_WORD(contacts_to_solve, place);
     Constraint c = narrowed(READ(constraints, i));
     if (BLOCKS && leads_in_block(c)) return;
-    Impulse impulse = narrowed(READ(impulses, i));
+    Impulse impulse = impulse_at(i);
     Impulse lent = impulse;
     BlockLoad load = load_of_block(i, c, impulse);
     lent.normal_sum = load.normal_sum;
@@ -172,7 +161,7 @@ void relax_contact(uint place, uint pass) {
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
             c = narrowed(READ(constraints, here - 1u));
-            impulse = narrowed(READ(impulses, here - 1u));
+            impulse = impulse_at(here - 1u);
         }
         uint next = next_of_block(c, came_from);
         block = relax_one(here - 1u, c, impulse, block, next == 0u, moved, ma, mb, part, pass);

@@ -17,6 +17,7 @@ SCREE_DECLARE_COHERENT(velocities)
 SCREE_DECLARE_COHERENT(masses)
 SCREE_DECLARE_COHERENT(forces)
 SCREE_DECLARE_COHERENT(impulses)
+SCREE_DECLARE_COHERENT(impacts)
 SCREE_DECLARE_COHERENT(slots)
 
 #define SCREE_COHERENT_TEXEL(table, i) imageLoad(table##_coherent, int(i))

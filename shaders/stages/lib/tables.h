@@ -25,57 +25,59 @@
     X(11, manifolds, ManifoldsTable, Manifold, contacts) /* of pairs with points, any order */ \
     X(12, contacts, ContactsTable, Contact, contacts)                                          \
     X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                             \
-    X(14, impulses, ImpulsesTable, Impulse, contacts)                                          \
-    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                             \
-    X(16, constraints, ConstraintsTable, Constraint, contacts)                                 \
-    X(17, slots, SlotsTable, VelocityDelta, slots)                                             \
-    X(18, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */  \
-    X(19, joints, JointsTable, Joint, joints)                                                  \
-    X(20, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                            \
-    X(21, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                             \
-    X(22, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */    \
-    X(23, vehicles, VehiclesTable, Vehicle, vehicles)
+    X(14, impulses, ImpulsesTable, ContactImpulse, contacts)                                   \
+    X(15, impulses_before, ImpulsesBeforeTable, ContactImpulse, contacts)                      \
+    X(16, impacts, ImpactsTable, ContactImpact, impacts)                                       \
+    X(17, impacts_before, ImpactsBeforeTable, ContactImpact, impacts)                          \
+    X(18, constraints, ConstraintsTable, Constraint, contacts)                                 \
+    X(19, slots, SlotsTable, VelocityDelta, slots)                                             \
+    X(20, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */  \
+    X(21, joints, JointsTable, Joint, joints)                                                  \
+    X(22, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                            \
+    X(23, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                             \
+    X(24, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */    \
+    X(25, vehicles, VehiclesTable, Vehicle, vehicles)
 
 // Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
 // own (SCREE_VIEWS).
 #define SCREE_WORD_TABLES(X)                                                                                                  \
-    X(24, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                          \
-    X(24, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                               \
-    X(24, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                    \
-    X(24, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */   \
-    X(24, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */                \
-    X(24, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                          \
-    X(24, strains, WordsTable, float, bodies)      /* last step's impulse or momentum of breakable bodies: fracture.h */      \
-    X(24, impact_debts, WordsTable, float, bodies) /* J, of bodies in an impact in this substep: restitution.h */             \
-    X(24, point_counts, WordsTable, uint, pairs)   /* points of each pair's manifold; with SPECULATIVE */                     \
-    X(24, pairs_by_type, WordsTable, uint, pairs)                                                                             \
-    X(24, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                         \
-    X(24, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
-    X(24, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */               \
-    X(24, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                        \
-    X(24, manifold_places, WordsTable, uint, pairs)        /* each pair's manifold, if it has points */                       \
-    X(24, contact_pairs, WordsTable, uint, contacts)       /* each contact's pair */                                          \
-    X(24, contact_slots, WordsTable, uint, contact_sides)  /* of each 2 * contact + side; NONE: contacts do not move it */    \
-    X(24, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */        \
-    X(24, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
-    X(24, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
-    X(24, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
-    X(24, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
-    X(24, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
+    X(26, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                          \
+    X(26, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                               \
+    X(26, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                    \
+    X(26, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */   \
+    X(26, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */                \
+    X(26, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                          \
+    X(26, strains, WordsTable, float, bodies)      /* last step's impulse or momentum of breakable bodies: fracture.h */      \
+    X(26, impact_debts, WordsTable, float, bodies) /* J, of bodies in an impact in this substep: restitution.h */             \
+    X(26, point_counts, WordsTable, uint, pairs)   /* points of each pair's manifold; with SPECULATIVE */                     \
+    X(26, pairs_by_type, WordsTable, uint, pairs)                                                                             \
+    X(26, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                         \
+    X(26, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
+    X(26, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */               \
+    X(26, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                        \
+    X(26, manifold_places, WordsTable, uint, pairs)        /* each pair's manifold, if it has points */                       \
+    X(26, contact_pairs, WordsTable, uint, contacts)       /* each contact's pair */                                          \
+    X(26, contact_slots, WordsTable, uint, contact_sides)  /* of each 2 * contact + side; NONE: contacts do not move it */    \
+    X(26, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */        \
+    X(26, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
+    X(26, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
+    X(26, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
+    X(26, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
+    X(26, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
 #define SCREE_QUAD_TABLES(X)                                                                                   \
-    X(25, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */  \
-    X(25, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                   \
-    X(25, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                           \
-    X(25, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */               \
-    X(25, tyres, QuadsTable, Tyre, tyres)                                                                      \
-    X(25, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */   \
-    X(25, immersions, QuadsTable, Immersion, immersions)    /* by id, if there is air or water: fields.h */    \
-    X(25, surfaces, QuadsTable, Surface, surfaces)          /* of rows with one: material.h */                 \
-    X(25, way_points, QuadsTable, WayPoint, way_points)     /* of the vehicles' routes */                      \
-    X(25, filters, QuadsTable, uvec4, filters)              /* of all rows, if any body has one: filter.h */   \
-    X(25, exclusions, QuadsTable, uvec4, exclusions)        /* pairs of bodies that never collide: filter.h */ \
-    X(25, gravities, QuadsTable, uvec4, gravities)          /* of each copy, if they differ, m/s^2: copies.h */
+    X(27, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */  \
+    X(27, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                   \
+    X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                           \
+    X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */               \
+    X(27, tyres, QuadsTable, Tyre, tyres)                                                                      \
+    X(27, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */   \
+    X(27, immersions, QuadsTable, Immersion, immersions)    /* by id, if there is air or water: fields.h */    \
+    X(27, surfaces, QuadsTable, Surface, surfaces)          /* of rows with one: material.h */                 \
+    X(27, way_points, QuadsTable, WayPoint, way_points)     /* of the vehicles' routes */                      \
+    X(27, filters, QuadsTable, uvec4, filters)              /* of all rows, if any body has one: filter.h */   \
+    X(27, exclusions, QuadsTable, uvec4, exclusions)        /* pairs of bodies that never collide: filter.h */ \
+    X(27, gravities, QuadsTable, uvec4, gravities)          /* of each copy, if they differ, m/s^2: copies.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
@@ -90,8 +92,8 @@
 // All but the parameters, which no stage writes.
 #define SCREE_STORAGE_BUFFERS(X)           \
     SCREE_WIDE_TABLES(X)                   \
-    X(24, words, WordsTable, uint, shared) \
-    X(25, quads, QuadsTable, uvec4, shared)
+    X(26, words, WordsTable, uint, shared) \
+    X(27, quads, QuadsTable, uvec4, shared)
 
 // ---- views: table, name of its earlier content
 #define SCREE_VIEWS(X)          \
