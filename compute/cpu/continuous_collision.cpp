@@ -69,7 +69,8 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         const bool any_fast = ((paces[0] | paces[1]) & fast) != 0;
         const physics::Manifold& manifold = state.pair_manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
-        const bool rebounds = state.bounces() && previous != physics::NONE && physics::rebounds_across(state.impacts_before[previous]);
+        const bool rebounds =
+            state.bounces() && previous != physics::NONE && physics::rebounds_across(state.impacts_before[previous]);
         const bool holds = !any_fast || rebounds ||
                            physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
                            physics::will_meet(manifold.normal, cosine, state.properties[a], state.poses[a], state.velocities[a],

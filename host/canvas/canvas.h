@@ -52,7 +52,7 @@ struct BodyTables {
     TableView velocities;  // Velocity
     // Contacts and their impulses, for CanvasOptions::marks and ColorBy::contact_impulse.
     TableView touches;              // Contact
-    TableView pushes;               // Impulse
+    TableView pushes;               // ContactImpulse
     std::uint32_t touch_count = 0;  // valid records in touches and pushes
     // Contacts of each body (a compressed row list), for ColorBy::contact_impulse and ColorBy::contacts.
     TableView slot_ends;     // uint, end of each body's slots, which is the begin of the next body's

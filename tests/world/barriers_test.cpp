@@ -67,11 +67,11 @@ TEST_CASE("a table lasts from step to step if something reads it before it is wr
     const std::vector<Table>& lasting = lasting_tables();
     using enum Table;
     CHECK(std::set<Table>(lasting.begin(), lasting.end()) ==
-          std::set{parameters,   counts,        properties, poses,           velocities,      masses,         sleep_states,
-                   strains,      hulls,         parts,      fractures,       pieces,          tyres,          surfaces,
-                   immersions,   way_points,    filters,    exclusions,      joints,          vehicles,       ids,
-                   joint_blocks, block_bodies,  actions,    contacts_before, impulses_before, first_contacts, births,
-                   gravities,    scaled_motions});
+          std::set{parameters,   counts,       properties,    poses,           velocities,      masses,         sleep_states,
+                   strains,      hulls,        parts,         fractures,       pieces,          tyres,          surfaces,
+                   immersions,   way_points,   filters,       exclusions,      joints,          vehicles,       ids,
+                   joint_blocks, block_bodies, actions,       contacts_before, impulses_before, impacts_before, first_contacts,
+                   births,       gravities,    scaled_motions});
 }
 
 TEST_CASE("tables in one memory take turns: none is read after another has been written there") {

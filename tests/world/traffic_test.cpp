@@ -46,9 +46,9 @@ TEST_CASE("traffic: the solver moves its contacts and bodies once in every subst
     const Traffic solver = traffic(touching_pairs(10), "solve_contacts");
     const double contacts = 10, bodies = 20, slots = 20;
     const double binned = sizeof(physics::uint);
-    REQUIRE(solver.read == 3 * (contacts * (binned + sizeof(physics::Constraint) + sizeof(physics::Impulse)) +
+    REQUIRE(solver.read == 3 * (contacts * (binned + sizeof(physics::Constraint) + sizeof(physics::ContactImpulse)) +
                                 bodies * (sizeof(physics::Mass) + sizeof(physics::Velocity))));
-    REQUIRE(solver.written == 3 * (contacts * sizeof(physics::Impulse) + slots * sizeof(physics::VelocityDelta)));
+    REQUIRE(solver.written == 3 * (contacts * sizeof(physics::ContactImpulse) + slots * sizeof(physics::VelocityDelta)));
 }
 
 TEST_CASE("traffic: a hull is read once, however many bodies have it and however many pairs they are in") {

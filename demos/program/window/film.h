@@ -6,6 +6,7 @@
 
 #include "compute/scene_file/picture_style.h"
 #include "demos/film/drawing.h"
+#include "demos/film/orbit_camera.h"
 #include "host/pictures/frame_writer.h"
 #include "host/window/window.h"
 

@@ -17,7 +17,7 @@ namespace scree::host {
 using physics::BodyProperties;
 using physics::Bounds;
 using physics::Contact;
-using physics::Impulse;
+using physics::ContactImpulse;
 using physics::Pose;
 using physics::Velocity;
 
@@ -59,7 +59,7 @@ public:
         touch.orientation_a = poses_[touch.a].orientation;
         touch.orientation_b = poses_[touch.b].orientation;
         touches_.push_back(touch);
-        Impulse impulse{};
+        ContactImpulse impulse{};
         impulse.normal.x = push;
         pushes_.push_back(impulse);
     }
@@ -151,7 +151,7 @@ private:
     std::vector<Velocity> velocities_;
     ShapeInstances shapes_;
     std::vector<Contact> touches_;
-    std::vector<Impulse> pushes_;
+    std::vector<ContactImpulse> pushes_;
     std::vector<std::uint32_t> slot_ends_, slot_sides_, rests_, ids_;
     std::vector<Bounds> bounds_;
     std::vector<physics::Joint> joints_;
