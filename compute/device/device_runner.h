@@ -102,6 +102,10 @@ private:
     void make_buffers();
     void make_buffer(std::size_t index);
     void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
+    struct Piece;
+    struct ConstPiece;
+    void fetch(std::span<const Piece> pieces) const;
+    void store(std::span<const ConstPiece> pieces);
     void upload_all();
     RowMover::Records records_of(Table table, std::size_t count) const;
     RowMover::Tables tables_to_move() const;

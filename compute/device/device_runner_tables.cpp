@@ -1,11 +1,14 @@
 // Device runner: buffers of the tables and transfers.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <set>
+#include <stdexcept>
 
 #include "compute/device/device_runner.h"
+#include "compute/device/record_groups.h"
 #include "host/vulkan/transfer.h"
 #include "shaders/physics/base/work_counts.h"
 
@@ -51,6 +54,20 @@ bool lasts(std::size_t buffer) {
     for (std::size_t i = 0; i < table_count; ++i)
         if (buffer_of(static_cast<Table>(i)) == buffer && lasts(static_cast<Table>(i))) return true;
     return false;
+}
+
+std::size_t record_bytes(Table table) {
+    return table_infos()[static_cast<std::size_t>(table)].record_bytes;
+}
+bool is_grouped(Table table) {
+    return table_infos()[static_cast<std::size_t>(table)].is_grouped;
+}
+// Length in groups of bytes of a grouped table, which must begin with its first record.
+std::size_t require_groups(Table table, std::size_t offset, std::size_t bytes) {
+    if (offset != 0)
+        throw std::logic_error(std::string("only the first records of the table ") +
+                               table_infos()[static_cast<std::size_t>(table)].name + " travel, which is in groups on a device");
+    return bytes_in_groups(bytes / record_bytes(table), record_bytes(table));
 }
 
 // Copies the layout of the tables in one buffer.
@@ -152,8 +169,7 @@ void DeviceRunner::upload_all() {
     std::set<Table> lasting;
     for (const Table table : lasting_tables()) lasting.insert({table, other_parity(table)});
     TableRanges all;
-    for (const Table table : lasting)
-        all.push_back({table, 0, state_->raw(table).size() / table_infos()[static_cast<std::size_t>(table)].record_bytes});
+    for (const Table table : lasting) all.push_back({table, 0, state_->raw(table).size() / record_bytes(table)});
     upload(all);
     sent_ = state_->fixed();
 }
@@ -174,20 +190,58 @@ void DeviceRunner::give_inputs() {
     inputs_given_ = true;
 }
 
+// Bytes of tables as the host has them, at an offset in them.
+struct DeviceRunner::Piece {
+    Table table;
+    std::size_t offset;
+    std::span<std::byte> bytes;
+};
+struct DeviceRunner::ConstPiece {
+    Table table;
+    std::size_t offset;
+    std::span<const std::byte> bytes;
+};
+
+void DeviceRunner::fetch(std::span<const Piece> pieces) const {
+    std::vector<host::Download> downloads;
+    std::vector<std::vector<std::byte>> groups(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const auto& [table, offset, bytes] = pieces[i];
+        if (is_grouped(table)) groups[i].resize(require_groups(table, offset, bytes.size()));
+        downloads.push_back({is_grouped(table) ? std::span(groups[i]) : bytes, &buffer(table), range(table).offset + offset});
+    }
+    transfer_.download(downloads);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (is_grouped(pieces[i].table)) from_groups(groups[i], record_bytes(pieces[i].table), pieces[i].bytes);
+}
+
+void DeviceRunner::store(std::span<const ConstPiece> pieces) {
+    std::vector<host::Upload> uploads;
+    std::vector<std::vector<std::byte>> groups(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const auto& [table, offset, bytes] = pieces[i];
+        if (is_grouped(table)) {
+            groups[i].resize(require_groups(table, offset, bytes.size()));
+            to_groups(bytes, record_bytes(table), groups[i]);
+        }
+        uploads.push_back(
+            {is_grouped(table) ? std::span<const std::byte>(groups[i]) : bytes, &buffer(table), range(table).offset + offset});
+    }
+    transfer_.upload(uploads);
+}
+
 void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {
-    const host::Download piece{bytes, &buffer(table), range(table).offset + offset};
-    transfer_.download({&piece, 1});
+    fetch(std::array{Piece{table, offset, bytes}});
 }
 
 void DeviceRunner::read(const Contents& contents) const {
-    std::vector<host::Download> pieces;
-    for (const auto& [table, bytes] : contents) pieces.push_back({bytes, &buffer(table), range(table).offset});
-    transfer_.download(pieces);
+    std::vector<Piece> pieces;
+    for (const auto& [table, bytes] : contents) pieces.push_back({table, 0, bytes});
+    fetch(pieces);
 }
 
 void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
-    const host::Upload piece{bytes, &buffer(table), range(table).offset};
-    transfer_.upload({&piece, 1});
+    store(std::array{ConstPiece{table, 0, bytes}});
 }
 
 DeviceRunner::Range DeviceRunner::range(Table table) const {
@@ -212,24 +266,24 @@ void DeviceRunner::poison() {
 
 void DeviceRunner::send(const TableRanges& ranges) {
     wait_for_returned();
-    std::vector<host::Upload> pieces;
+    std::vector<ConstPiece> pieces;
     for (const TableRange& range : ranges) {
-        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
-        pieces.push_back({std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes),
-                          &buffer(range.table), this->range(range.table).offset + range.first * bytes});
+        const std::size_t bytes = record_bytes(range.table);
+        pieces.push_back({range.table, range.first * bytes,
+                          std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes)});
     }
-    transfer_.upload(pieces);
+    store(pieces);
 }
 
 void DeviceRunner::receive(const TableRanges& ranges) {
-    std::vector<host::Download> pieces;
+    std::vector<Piece> pieces;
     for (const TableRange& range : ranges) {
-        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+        const std::size_t bytes = record_bytes(range.table);
         if (state_->raw(range.table).size() < (range.first + range.count) * bytes) state_->make(range.table);
-        pieces.push_back({state_->raw(range.table).subspan(range.first * bytes, range.count * bytes), &buffer(range.table),
-                          this->range(range.table).offset + range.first * bytes});
+        pieces.push_back(
+            {range.table, range.first * bytes, state_->raw(range.table).subspan(range.first * bytes, range.count * bytes)});
     }
-    transfer_.download(pieces);
+    fetch(pieces);
 }
 
 void DeviceRunner::keep(std::size_t slot, const TableRanges& ranges) {
@@ -266,8 +320,10 @@ void DeviceRunner::bring_back(std::size_t slot) {
 }
 
 DeviceRunner::Range DeviceRunner::place_of(const TableRange& range) const {
-    const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
-    return {&buffer(range.table), this->range(range.table).offset + range.first * bytes, range.count * bytes};
+    const std::size_t bytes = record_bytes(range.table);
+    const std::size_t length =
+        is_grouped(range.table) ? require_groups(range.table, range.first * bytes, range.count * bytes) : range.count * bytes;
+    return {&buffer(range.table), this->range(range.table).offset + range.first * bytes, length};
 }
 
 std::uint32_t DeviceRunner::joint_records() const {

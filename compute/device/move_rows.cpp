@@ -16,7 +16,8 @@ constexpr std::size_t words_to(std::size_t bytes) {
 
 RowMover::Records DeviceRunner::records_of(Table table, std::size_t count) const {
     const Range place = range(table);
-    return {place.buffer, words_to(place.offset), words_to(table_infos()[static_cast<std::size_t>(table)].record_bytes), count};
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    return {place.buffer, words_to(place.offset), words_to(info.record_bytes), count, info.is_grouped};
 }
 
 RowMover::Tables DeviceRunner::tables_to_move() const {

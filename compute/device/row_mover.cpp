@@ -6,6 +6,7 @@
 
 #include "host/vulkan/transfer.h"
 #include "shaders/embedded.h"
+#include "shaders/physics/base/record_groups.h"
 
 namespace scree {
 
@@ -40,7 +41,8 @@ void RowMover::run(std::uint32_t step, std::size_t items, const Records& of, std
                     static_cast<std::uint32_t>(of.length),
                     static_cast<std::uint32_t>(of.begin),
                     static_cast<std::uint32_t>(first),
-                    tables_.bodies};
+                    tables_.bodies,
+                    of.is_grouped ? physics::GROUP_SHIFT : 0};
     commands_->bind(pipelines_[step == count_block || step == sum_blocks ? 1 : 0], set);
     commands_->push(&push, sizeof push);
     const std::size_t groups = (items + group_size_ - 1) / group_size_;

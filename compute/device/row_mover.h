@@ -21,6 +21,7 @@ public:
     struct Records {
         const host::Buffer* buffer;
         std::size_t begin, length, count;  // begin of the table, length of a record, number of records
+        bool is_grouped = false;           // shaders/physics/base/record_groups.h
     };
     struct Tables {
         std::uint32_t rows, bodies;  // all; those that move are below `bodies`
@@ -36,7 +37,7 @@ public:
 
 private:
     struct Push {
-        std::uint32_t step, items, rows, length, begin, first, bodies;
+        std::uint32_t step, items, rows, length, begin, first, bodies, shift;
     };
     const host::BindingSet& bound(const host::Buffer& table, const host::Buffer& moved);
     void run(std::uint32_t step, std::size_t items, const Records& of, std::size_t first, const host::BindingSet& set);

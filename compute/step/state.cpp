@@ -29,11 +29,17 @@ std::uint32_t State::buckets_for(std::uint32_t bodies) {
 }
 
 const std::array<TableInfo, table_count>& table_infos() {
-    static const std::array<TableInfo, table_count> infos{{
+    static const std::array<TableInfo, table_count> infos = [] {
+        std::array<TableInfo, table_count> all{{
 #define SCREE_INFO(buffer, name, block, record, length) {#name, sizeof(physics::records::name), BufferLength::length, buffer},
-        SCREE_TABLES(SCREE_INFO)
+            SCREE_TABLES(SCREE_INFO)
 #undef SCREE_INFO
-    }};
+        }};
+#define SCREE_GROUPED(buffer, name, block, record, length) all[static_cast<std::size_t>(Table::name)].is_grouped = true;
+        SCREE_GROUPED_TABLES(SCREE_GROUPED)
+#undef SCREE_GROUPED
+        return all;
+    }();
     return infos;
 }
 

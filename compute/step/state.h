@@ -78,7 +78,8 @@ struct TableInfo {
     const char* name;
     std::size_t record_bytes;
     BufferLength length;
-    std::size_t buffer;  // index of the device buffer that holds it
+    std::size_t buffer;       // index of the device buffer that holds it
+    bool is_grouped = false;  // on a device (shaders/physics/base/record_groups.h)
 };
 #define SCREE_COUNT(buffer, name, block, record, length) +1
 inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "compute/step/plan.h"
+#include "shaders/physics/base/record_groups.h"
 
 namespace scree {
 
@@ -18,6 +19,11 @@ SCREE_WORD_TABLES(SCREE_CHECK)
 #undef SCREE_CHECK
 #define SCREE_CHECK(buffer, name, block, record, length) static_assert(sizeof(physics::records::name) % 16 == 0);
 SCREE_QUAD_TABLES(SCREE_CHECK)
+#undef SCREE_CHECK
+
+static_assert(sizeof(physics::ContactImpulse) == 16 * physics::CONTACT_IMPULSE_QUADS);
+#define SCREE_CHECK(buffer, name, block, record, length) static_assert(sizeof(physics::records::name) % 16 == 0);
+SCREE_GROUPED_TABLES(SCREE_CHECK)
 #undef SCREE_CHECK
 
 std::size_t index_of(Table table) {
@@ -66,7 +72,8 @@ TableOffsets table_offsets(const State& state, const std::function<std::size_t(B
     TableOffsets offsets;
     for (std::size_t i = 0; i < table_count; ++i) {
         const TableInfo& info = table_infos()[i];
-        const std::size_t records = state.allocated(info.length) + (spare ? spare(info.length) : 0);
+        const std::size_t group = info.is_grouped ? physics::RECORDS_OF_GROUP : 1;
+        const std::size_t records = (state.allocated(info.length) + (spare ? spare(info.length) : 0) + group - 1) / group * group;
         const Table owner = memory_of(static_cast<Table>(i));
         for (const Table each : {owner, other_parity(owner)})
             offsets.room[index_of(each)] = std::max(offsets.room[index_of(each)], records * info.record_bytes);

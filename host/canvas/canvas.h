@@ -54,6 +54,7 @@ struct BodyTables {
     TableView touches;              // Contact
     TableView pushes;               // ContactImpulse
     std::uint32_t touch_count = 0;  // valid records in touches and pushes
+    std::uint32_t push_shift = 0;   // of the groups of pushes (shaders/physics/base/record_groups.h); 0: one after the other
     // Contacts of each body (a compressed row list), for ColorBy::contact_impulse and ColorBy::contacts.
     TableView slot_ends;     // uint, end of each body's slots, which is the begin of the next body's
     TableView slot_sides;    // uint, one per slot: 2 * contact + side (0 for body a, 1 for body b), or a joint with OF_JOINT

@@ -47,28 +47,62 @@ std::string constructor_of(const std::vector<Record>& records, const Record& rec
     return text + ")";
 }
 
+std::string place_of(std::size_t texels, std::size_t texel) {
+    return "PLACE(" + std::to_string(texels) + "u, i, " + std::to_string(texel) + "u)";
+}
+
+// Only scalars and vectors, which fill whole texels.
+bool has_writer(const Record& record) {
+    return record.bytes % 16 == 0 && std::all_of(record.members.begin(), record.members.end(), [](const RecordMember& member) {
+               return member.count == 0 && (member.type == "uint" || member.type == "int" || member.type == "float" ||
+                                            member.type.starts_with("vec") || member.type.starts_with("uvec"));
+           });
+}
+
+// Writes the texels of the members in the mask `members`, and the bit of each member in it.
+std::string writer_of(const Record& record) {
+    const std::size_t texels = record.bytes / 16;
+    std::vector<std::string> words(texels);
+    std::string text;
+    for (const RecordMember& member : record.members) {
+        const std::size_t texel = member.offset / 16;
+        const std::string value = "r." + member.name;
+        const std::string bits = member.type == "float" || member.type.starts_with("vec") ? "floatBitsToUint(" + value + ")"
+                                 : member.type == "int"                                   ? "uint(" + value + ")"
+                                                                                          : value;
+        words[texel] += (words[texel].empty() ? "" : ", ") + bits;
+        text += "#define MEMBER_OF_" + record.name + "_" + member.name + " " + std::to_string(1u << texel) + "u\n";
+    }
+    text += "#define SCREE_WRITER_" + record.name + "(table, PLACE) \\\n    void write_##table(uint i, " + record.name +
+            " r, uint members) { \\\n";
+    for (std::size_t k = 0; k < texels; ++k)
+        text += "        if ((members & " + std::to_string(1u << k) + "u) != 0u) table.at[" + place_of(texels, k) + "] = uvec4(" +
+                words[k] + "); \\\n";
+    return text + "    }\n";
+}
+
 std::string reader_of(const std::vector<Record>& records, const Record& record) {
     const std::size_t texels = std::max<std::size_t>(1, record.bytes / 16);
-    const std::string first = texels == 1 ? "i" : std::to_string(texels) + "u * i";
     std::string text =
-        "#define SCREE_READER_" + record.name + "(table, TEXEL) \\\n    " + record.name + " read_##table(uint i) { \\\n";
+        "#define SCREE_READER_" + record.name + "(table, TEXEL, PLACE) \\\n    " + record.name + " read_##table(uint i) { \\\n";
     for (std::size_t k = 0; k < texels; ++k)
-        text += "        uvec4 t" + std::to_string(k) + " = TEXEL(table, " + first +
-                (k > 0 ? " + " + std::to_string(k) + "u" : "") + "); \\\n";
+        text += "        uvec4 t" + std::to_string(k) + " = TEXEL(table, " + place_of(texels, k) + "); \\\n";
     return text + "        return " + constructor_of(records, record, 0) + "; \\\n    }\n";
 }
 
 }  // namespace
 
 std::string readers_of(const std::vector<Record>& records, const std::string& source) {
-    std::string text = "// Records put together from texels. Made from " + source + " when the project is built.\n";
+    std::string text = "// Records put together from texels, and taken apart. Made from " + source +
+                       " when the project is built.\n#ifndef SCREE_RECORD_READERS_GLSL\n#define SCREE_RECORD_READERS_GLSL\n";
     for (const Record& record : records) {
+        if (has_writer(record)) text += writer_of(record);
         if (has_reader(record))
             text += reader_of(records, record);
         else
             text += "// No reader: " + record.name + ", whose " + std::to_string(record.bytes) + " bytes are no whole texels.\n";
     }
-    return text;
+    return text + "#endif\n";
 }
 
 std::string layouts_of(const std::vector<Record>& records, const std::string& source) {

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/base/record_groups.h"
 #include "shaders/physics/base/records.h"
 
 layout(local_size_x_id = 0) in;
@@ -48,6 +49,7 @@ layout(push_constant) uniform Push {
     uint begin;   // of the table in its buffer, words
     uint first;   // FOLLOW: which word of a record is a row; else begin of first_contacts, words
     uint bodies;  // rows that move are below
+    uint shift;   // of groups of contacts (record_groups.h); 0: one after the other
 }
 push;
 
@@ -143,7 +145,14 @@ void move_record(uint now, uint then) {
 void move_contact(uint contact) {
     uint owner = owner_of(contact);
     uint place = moves.at[firsts() + to_of(owner)] + contact - words.at[push.first + owner];
-    move_record(push.begin + contact * push.record, push.begin + place * push.record);
+    if (push.shift == 0u) {
+        move_record(push.begin + contact * push.record, push.begin + place * push.record);
+        return;
+    }
+    uint quads_each = push.record >> 2, begin = push.begin >> 2;
+    for (uint k = 0u; k < quads_each; ++k)
+        quads_moved.at[begin + place_in_groups(quads_each, place, k, push.shift)] =
+            quads.at[begin + place_in_groups(quads_each, contact, k, push.shift)];
 }
 
 void main() {

@@ -8,7 +8,7 @@ layout(std430, set = 0, binding = 11) readonly buffer TouchTable {
     Contact touches[];
 };
 layout(std430, set = 0, binding = 12) readonly buffer PushTable {
-    Impulse pushes[];
+    vec4 pushes[];  // ContactImpulse
 };
 layout(location = 0) out vec2 out_at;          // along and across the line, pixels from the contact point
 layout(location = 1) flat out vec4 out_shape;  // half length of the line; radius of the disc; half width of the line; rim; pixels
@@ -62,7 +62,7 @@ void main() {
     vec2 middle = pixels_of(clip);
 
     float size = min(min_half_width(a.shape, a.size), min_half_width(b.shape, b.size));
-    float push = pushes[gl_InstanceIndex / 4].normal[k] *
+    float push = pushes[push_of(uint(gl_InstanceIndex) / 4u)][k] *
                  max(properties[body_of(touch.a)].inverse_mass, properties[body_of(touch.b)].inverse_mass);
     // Length grows with the square root, since impulses in a pile differ by a factor of hundreds from top to bottom.
     float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);

@@ -2,6 +2,7 @@
 #ifndef SCREE_RENDER_SCENE_H
 #define SCREE_RENDER_SCENE_H
 
+#include "shaders/physics/base/record_groups.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/render/frame.h"
 
@@ -22,6 +23,10 @@ layout(std430, set = 0, binding = 2) readonly buffer VelocityTable {
 layout(std430, set = 0, binding = 3) readonly buffer InstanceTable {
     uint instances[];
 };
+// Place of a contact's normal impulses, the first quad of a ContactImpulse.
+uint push_of(uint contact) {
+    return place_in_groups(CONTACT_IMPULSE_QUADS, contact, 0u, uint(frame.joints.y));
+}
 #endif
 
 // The viewing ray through a pixel position: origin relative to the eye, and direction, not normalised.

@@ -18,7 +18,7 @@ const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
 const vec3 PLAIN = vec3(0.62, 0.33, 0.13);
 
 layout(std430, set = 0, binding = 12) readonly buffer ImpulseTable {
-    ContactImpulse impulses[];
+    vec4 impulses[];  // ContactImpulse
 };
 layout(std430, set = 0, binding = 16) readonly buffer SlotEndTable {
     uint slot_ends[];  // end of each body's slots, which is the begin of the next body's
@@ -43,7 +43,7 @@ float contact_impulse(uint body) {
     float sum = 0.0;
     for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < slot_ends[body]; ++k) {
         if ((slot_sides[k] & OF_JOINT) != 0u) continue;
-        vec4 push = impulses[slot_sides[k] >> 1].normal;
+        vec4 push = impulses[push_of(slot_sides[k] >> 1)];
         sum += push.x + push.y + push.z + push.w;
     }
     return sum;

@@ -26,7 +26,7 @@ void main() {
     Manifold manifold = FOUND_MANIFOLD(i);
     vec3 normal = manifold.normal;
     uint previous = READ(pairs, i).previous;
-    bool rebounds = BOUNCES && previous != NONE && rebounds_across(READ(impacts_before, previous));
+    bool rebounds = BOUNCES && previous != NONE && rebounds_across(READ_GROUPED(impacts_before, previous));
     if (any_fast && !rebounds && !is_near(manifold, WORD(point_counts, i), ta, tb, PARAMETERS) &&
         !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb,
                    READ(forces, of_b), PARAMETERS, Hulls(0u))) {

@@ -46,7 +46,7 @@ void main() {
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
     uint of_a = body_of(contact.a), of_b = body_of(contact.b);
     if (is_idle(slot_a, slot_b)) {
-        constraints.at[i] = idle_between(contact, of_a, of_b);
+        write_constraints(i, idle_between(contact, of_a, of_b), EVERY_MEMBER);
         return;
     }
     bool shares = BLOCKS && shares_block(READ(properties, contact.a), READ(properties, contact.b), PARAMETERS);
@@ -64,7 +64,7 @@ void main() {
         Constraint constraint = prepared(k, contact, of_a, of_b, now, felt);
         uint next = next_in_block(k, place, shares, of_a, of_b);
         constraint = linked(constraint, before, next);
-        constraints.at[k] = constraint;
+        write_constraints(k, constraint, EVERY_MEMBER);
         Impulse impulse = pushes_at(k);
         ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, felt);
         of_block = larger(of_block, share.weight);

@@ -17,7 +17,7 @@ void main() {
     for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k) {
         if ((READ_WORD(slot_sides, k) & OF_JOINT) != 0u) continue;
         uint contact = READ_WORD(slot_sides, k) >> 1u;
-        Constraint c = READ(constraints, contact);
+        Constraint c = READ_GROUPED(constraints, contact);
         float kept = smaller(READ(forces, c.a).kept, READ(forces, c.b).kept);
         float impulse = READ_FLOAT(carried, contact);
         if (!(kept < 1.0f) || !(impulse > 0.0f)) continue;

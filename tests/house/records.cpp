@@ -62,7 +62,7 @@ TEST_CASE("house: a record is laid out by std430, and its reader takes each memb
     CHECK(outer.members[5].offset == 32);
     CHECK(outer.members[5].stride == 16);
     const std::string readers = host::readers_of(records, "records.h");
-    CHECK(readers.find("TEXEL(table, 4u * i + 3u)") != std::string::npos);
+    CHECK(readers.find("TEXEL(table, PLACE(4u, i, 3u))") != std::string::npos);
     CHECK(readers.find("Outer(uintBitsToFloat(t0.xyz), uintBitsToFloat(t0.w), uint[2](t1.x, t1.y), t1.z, int(t1.w), "
                        "Inner[2](Inner(t2), Inner(t3)))") != std::string::npos);
 }

@@ -10,6 +10,7 @@
 #include "demos/program/exit_status.h"
 #include "host/copy_speed.h"
 #include "host/vulkan/device.h"
+#include "shaders/physics/base/record_groups.h"
 #include "shaders/physics/base/records.h"
 
 namespace scree::demos {
@@ -143,6 +144,7 @@ host::BodyTables tables_on_device(Runner& runner) {
     };
     host::BodyTables tables{view(Table::properties), view(Table::poses),    view(Table::velocities),
                             view(Table::contacts),   view(Table::impulses), counts.contacts};
+    tables.push_shift = physics::GROUP_SHIFT;
     tables.slot_ends = view(Table::slot_ends);
     tables.slot_sides = view(Table::slot_sides);
     tables.sleep_states = view(Table::sleep_states);

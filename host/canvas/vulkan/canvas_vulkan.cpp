@@ -159,7 +159,8 @@ void VulkanCanvas::Impl::record(const Camera& camera, const ColorScale& scale, c
     wait();
     const VulkanFunctions& vk = device->vk();
     require_tables(tables, options, scale.by);
-    const Frame seen = make_frame(camera, scale, options, scene_low, scene_high);
+    Frame seen = make_frame(camera, scale, options, scene_low, scene_high);
+    seen.joints.y = static_cast<float>(tables.push_shift);
     frame.write(&seen, sizeof seen);
     std::vector<OverlayQuad> laid = overlay_quads(options.width, options.height, options.legend, scale, caption);
     laid.resize(std::min<std::size_t>(laid.size(), MOST_QUADS));

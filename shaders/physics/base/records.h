@@ -258,6 +258,7 @@ struct ContactImpulse {
     vec3 stretch;          // way of B over A since the patch sticks (friction.h), in the tangent plane, world, m
     float turn;            // turn of B on A since, about the normal, rad
 };
+CONSTANT uint CONTACT_IMPULSE_QUADS = 7u;  // of 16 bytes
 // The impact with restitution of a contact (restitution.h); all 0: none.
 struct ContactImpact {
     vec4 impact;           // per point: impulse in the last pass, N s

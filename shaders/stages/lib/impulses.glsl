@@ -6,25 +6,25 @@
 #include "shaders/stages/lib/features.glsl"
 
 Impulse impulse_at(uint i) {
-    if (BOUNCES) return whole_impulse(READ(impulses, i), READ(impacts, i));
-    return whole_impulse(READ(impulses, i), no_impact());
+    if (BOUNCES) return whole_impulse(READ_GROUPED(impulses, i), READ_GROUPED(impacts, i));
+    return whole_impulse(READ_GROUPED(impulses, i), no_impact());
 }
 // Of last step's contact.
 Impulse impulse_before(uint i) {
-    if (BOUNCES) return whole_impulse(READ(impulses_before, i), READ(impacts_before, i));
-    return whole_impulse(READ(impulses_before, i), no_impact());
+    if (BOUNCES) return whole_impulse(READ_GROUPED(impulses_before, i), READ_GROUPED(impacts_before, i));
+    return whole_impulse(READ_GROUPED(impulses_before, i), no_impact());
 }
 // Without its impact, for stages that are not specialised by restitution.
 Impulse pushes_at(uint i) {
-    return whole_impulse(READ(impulses, i), no_impact());
+    return whole_impulse(READ_GROUPED(impulses, i), no_impact());
 }
 Impulse pushes_before(uint i) {
-    return whole_impulse(READ(impulses_before, i), no_impact());
+    return whole_impulse(READ_GROUPED(impulses_before, i), no_impact());
 }
 
 void keep_impulse(uint i, Impulse impulse) {
-    impulses.at[i] = contact_impulse_of(impulse);
-    if (BOUNCES) impacts.at[i] = contact_impact_of(impulse);
+    write_impulses(i, contact_impulse_of(impulse), EVERY_MEMBER);
+    if (BOUNCES) write_impacts(i, contact_impact_of(impulse), EVERY_MEMBER);
 }
 
 #endif

@@ -20,7 +20,7 @@ BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
     if (!BLOCKS) return load;
     uint before = i + 1u;
     for (uint here = next_of_block(c, 0u); here != 0u;) {
-        c = READ(constraints, here - 1u);
+        c = READ_GROUPED(constraints, here - 1u);
         load = with_contact(load, c, impulse_at(here - 1u));
         uint next = next_of_block(c, before);
         before = here;
@@ -29,17 +29,16 @@ BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
     return load;
 }
 
+// What the biased pass changes, but for rolling resistance.
+const uint SOLVED_MEMBERS =
+    MEMBER_OF_ContactImpulse_normal | MEMBER_OF_ContactImpulse_friction | MEMBER_OF_ContactImpulse_stretch;
+
 // The biased pass over one contact of a block; returns the velocities of the split bodies.
 VelocityPair solve_one(uint i, Constraint c, Impulse impulse, VelocityPair before, Mass ma, Mass mb, float part) {
     vec4 state = state_of_impacts(c);
     SolveResult after = solve_contact(c, impulse, before, ma, mb, state, part, felt_by(c.a));
-    impulses.at[i].normal = after.impulse.normal;
-    if (BOUNCES) impacts.at[i] = contact_impact_of(after.impulse);
-    impulses.at[i].friction = after.impulse.friction;
-    impulses.at[i].twist = after.impulse.twist;
-    impulses.at[i].stretch = after.impulse.stretch;
-    impulses.at[i].turn = after.impulse.turn;
-    if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
+    write_impulses(i, contact_impulse_of(after.impulse), SOLVED_MEMBERS | (ROLLS ? MEMBER_OF_ContactImpulse_rolling : 0u));
+    if (BOUNCES) write_impacts(i, contact_impact_of(after.impulse), EVERY_MEMBER);
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
     float blow = after.impulse.impact_weight;
     float debt = BOUNCES ? impact_debt(after.impulse) : 0.0f;
@@ -52,7 +51,7 @@ VelocityPair solve_one(uint i, Constraint c, Impulse impulse, VelocityPair befor
 void solve_contact(uint place) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
-    Constraint c = narrowed(READ(constraints, i));
+    Constraint c = narrowed(READ_GROUPED(constraints, i));
     if (BLOCKS && follows_in_block(c)) return;
     Impulse impulse = impulse_at(i);
     BlockLoad load = load_of_block(i, c, impulse);
@@ -67,7 +66,7 @@ void solve_contact(uint place) {
     uint came_from = 0u;
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
-            c = narrowed(READ(constraints, here - 1u));
+            c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
         }
         uint next = next_of_block(c, came_from);
@@ -113,18 +112,7 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
     Impulse biased = impulse;
     impulse = clear_impacts(after.impulse, point_count(c));
     impulse.normal_sum = normal_impulse(impulse);
-    impulses.at[i].normal = impulse.normal;
-    impulses.at[i].solved_normal = impulse.solved_normal;
-    impulses.at[i].separation = impulse.separation;
-    if (BOUNCES) impacts.at[i] = contact_impact_of(impulse);
-    impulses.at[i].friction = impulse.friction;
-    impulses.at[i].twist = impulse.twist;
-    impulses.at[i].stretch = impulse.stretch;
-    impulses.at[i].turn = impulse.turn;
-    if (ROLLS) impulses.at[i].rolling = impulse.rolling;
-    impulses.at[i].slide_distance = impulse.slide_distance;
-    impulses.at[i].center_offset = impulse.center_offset;
-    impulses.at[i].normal_sum = impulse.normal_sum;
+    keep_impulse(i, impulse);
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
     if ((pass & LAST_SUBSTEP) == 0u)
         share = warm_start(c, impulse, share, ma, mb);
@@ -142,7 +130,7 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
 void relax_contact(uint place, uint pass) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
-    Constraint c = narrowed(READ(constraints, i));
+    Constraint c = narrowed(READ_GROUPED(constraints, i));
     if (BLOCKS && leads_in_block(c)) return;
     Impulse impulse = impulse_at(i);
     Impulse lent = impulse;
@@ -160,7 +148,7 @@ void relax_contact(uint place, uint pass) {
     uint came_from = 0u;
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
-            c = narrowed(READ(constraints, here - 1u));
+            c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
         }
         uint next = next_of_block(c, came_from);

@@ -5,6 +5,9 @@
 #ifndef SCREE_STAGES_READ_GLSL
 #define SCREE_STAGES_READ_GLSL
 
+// Place of quad k of record i, of records one after the other.
+#define SCREE_IN_TURN(quads, i, k) (quads) * (i) + (k)
+
 #ifndef SCREE_TEXELS
 #define READ(table, i) table.at[i]
 #else
@@ -22,11 +25,11 @@ SCREE_BUFFERS(SCREE_DECLARE_TEXELS)
 // Readers that assemble each record from texels, generated from records.h at build.
 #include "shaders/stages/lib/record_readers.glsl"
 
-#define SCREE_READ(table, record) SCREE_READER_##record(table, SCREE_TEXEL)
+#define SCREE_READ(table, record) SCREE_READER_##record(table, SCREE_TEXEL, SCREE_IN_TURN)
 // Tables that the threads of a fused stage write for each other.
 #ifdef SCREE_FUSED_SOLVER
 #include "shaders/stages/lib/read_coherent.glsl"
-#define SCREE_READ_OF_SOLVER(table, record) SCREE_READER_##record(table, SCREE_COHERENT_TEXEL)
+#define SCREE_READ_OF_SOLVER(table, record) SCREE_READER_##record(table, SCREE_COHERENT_TEXEL, SCREE_IN_TURN)
 #else
 #define SCREE_READ_OF_SOLVER SCREE_READ
 #endif
@@ -50,11 +53,6 @@ SCREE_READ(pairs, Pair)
 SCREE_READ(manifolds, Manifold)
 SCREE_READ(contacts, Contact)
 SCREE_READ(contacts_before, Contact)
-SCREE_READ_OF_SOLVER(impulses, ContactImpulse)
-SCREE_READ(impulses_before, ContactImpulse)
-SCREE_READ_OF_SOLVER(impacts, ContactImpact)
-SCREE_READ(impacts_before, ContactImpact)
-SCREE_READ(constraints, Constraint)
 SCREE_READ_OF_SOLVER(slots, VelocityDelta)
 SCREE_READ(candidates, Candidate)
 #endif

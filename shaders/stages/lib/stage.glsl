@@ -1,5 +1,5 @@
 // Common head of every stage: the tables of a step, and a workgroup whose size the host chooses. Record i of a table
-// that has a buffer of its own is name.at[i]; words.glsl and quads.glsl access the others.
+// that has a buffer of its own is name.at[i]; grouped.glsl, words.glsl and quads.glsl access the others.
 //
 // Each stage is compiled for every way to access the tables: bound buffers, or (SCREE_BDA) buffer device addresses,
 // which may be longer and more than a device binds; and each with SCREE_TEXELS, where read-only tables are texel
@@ -22,13 +22,20 @@ layout(local_size_x_id = 0) in;
 #define SCREE_SHARED
 #endif
 
+#define SCREE_DECLARE_IN_QUADS(index, name, block, record, length) SCREE_DECLARE(index, name, block, uvec4, length)
+#define SCREE_DECLARE_TABLES(X)                  \
+    SCREE_RECORD_TABLES(X)                       \
+    SCREE_GROUPED_TABLES(SCREE_DECLARE_IN_QUADS) \
+    SCREE_SHARED_BUFFERS(X)
+
 #ifdef SCREE_BDA
 #extension GL_EXT_buffer_reference : require
 #define SCREE_DECLARE(index, name, block, record, length)                                     \
     layout(std430, buffer_reference, buffer_reference_align = 16) SCREE_SHARED buffer block { \
         record at[];                                                                          \
     };
-SCREE_BUFFERS(SCREE_DECLARE)
+SCREE_DECLARE(0, parameters, ParametersTable, Parameters, one)
+SCREE_DECLARE_TABLES(SCREE_DECLARE)
 #define SCREE_POINT(index, name, block, record, length) block name;
 layout(std140, set = 0, binding = 0) uniform Addresses{SCREE_BUFFERS(SCREE_POINT)};
 #else
@@ -41,7 +48,7 @@ parameters;
         record at[];                                                     \
     }                                                                    \
     name;
-SCREE_STORAGE_BUFFERS(SCREE_DECLARE)
+SCREE_DECLARE_TABLES(SCREE_DECLARE)
 #endif
 
 layout(push_constant) uniform Push {
@@ -56,6 +63,7 @@ push;
 #include "shaders/stages/lib/read.glsl"
 
 // after the declarations of the buffers
+#include "shaders/stages/lib/grouped.glsl"
 #include "shaders/stages/lib/quads.glsl"
 #include "shaders/stages/lib/words.glsl"
 

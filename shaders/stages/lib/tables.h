@@ -11,7 +11,7 @@
 #define SCREE_STAGES_TABLES_H
 
 // ---- tables: buffer, name, block, record, length
-#define SCREE_WIDE_TABLES(X)                                                                   \
+#define SCREE_RECORD_TABLES(X)                                                                 \
     X(1, counts, CountsTable, Counts, one)                                                     \
     X(2, properties, PropertiesTable, BodyProperties, bodies)                                  \
     X(3, poses, PosesTable, Pose, bodies)                                                      \
@@ -25,18 +25,25 @@
     X(11, manifolds, ManifoldsTable, Manifold, contacts) /* of pairs with points, any order */ \
     X(12, contacts, ContactsTable, Contact, contacts)                                          \
     X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                             \
-    X(14, impulses, ImpulsesTable, ContactImpulse, contacts)                                   \
-    X(15, impulses_before, ImpulsesBeforeTable, ContactImpulse, contacts)                      \
-    X(16, impacts, ImpactsTable, ContactImpact, impacts)                                       \
-    X(17, impacts_before, ImpactsBeforeTable, ContactImpact, impacts)                          \
-    X(18, constraints, ConstraintsTable, Constraint, contacts)                                 \
-    X(19, slots, SlotsTable, VelocityDelta, slots)                                             \
-    X(20, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */  \
-    X(21, joints, JointsTable, Joint, joints)                                                  \
-    X(22, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                            \
-    X(23, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                             \
-    X(24, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */    \
-    X(25, vehicles, VehiclesTable, Vehicle, vehicles)
+    X(14, slots, SlotsTable, VelocityDelta, slots)                                             \
+    X(15, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */  \
+    X(16, joints, JointsTable, Joint, joints)                                                  \
+    X(17, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                            \
+    X(18, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                             \
+    X(19, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */    \
+    X(20, vehicles, VehiclesTable, Vehicle, vehicles)
+
+// In groups on a device (shaders/physics/base/record_groups.h): shaders/stages/lib/grouped.glsl accesses them.
+#define SCREE_GROUPED_TABLES(X)                                           \
+    X(21, impulses, ImpulsesTable, ContactImpulse, contacts)              \
+    X(22, impulses_before, ImpulsesBeforeTable, ContactImpulse, contacts) \
+    X(23, impacts, ImpactsTable, ContactImpact, impacts)                  \
+    X(24, impacts_before, ImpactsBeforeTable, ContactImpact, impacts)     \
+    X(25, constraints, ConstraintsTable, Constraint, contacts)
+
+#define SCREE_WIDE_TABLES(X) \
+    SCREE_RECORD_TABLES(X)   \
+    SCREE_GROUPED_TABLES(X)
 
 // Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
 // own (SCREE_VIEWS).
@@ -90,8 +97,11 @@
     X(0, parameters, ParametersTable, Parameters, one) \
     SCREE_STORAGE_BUFFERS(X)
 // All but the parameters, which no stage writes.
-#define SCREE_STORAGE_BUFFERS(X)           \
-    SCREE_WIDE_TABLES(X)                   \
+#define SCREE_STORAGE_BUFFERS(X) \
+    SCREE_WIDE_TABLES(X)         \
+    SCREE_SHARED_BUFFERS(X)
+// Of tables of words, and of quads.
+#define SCREE_SHARED_BUFFERS(X)            \
     X(26, words, WordsTable, uint, shared) \
     X(27, quads, QuadsTable, uvec4, shared)
 

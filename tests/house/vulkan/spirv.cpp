@@ -63,6 +63,9 @@ std::map<std::string, TableEntry> tables() {
 #define SCREE_ENTRY(binding, name, block, record, length) {#block, {binding, #record, sizeof(record)}},
     std::map<std::string, TableEntry> all = {SCREE_BUFFERS(SCREE_ENTRY)};
 #undef SCREE_ENTRY
+#define SCREE_ENTRY(binding, name, block, record, length) all[#block] = {binding, "uvec4", sizeof(uvec4)};
+    SCREE_GROUPED_TABLES(SCREE_ENTRY)
+#undef SCREE_ENTRY
     // The table of pairs' memory before pairs are written (shaders/stages/lib/partner_cache.glsl).
     all["PartnerCacheTable"] = {all.at("PairsTable").binding, "uvec4", sizeof(uvec4)};
     return all;
