@@ -5,12 +5,14 @@
 #include <cstdlib>
 #include <span>
 
+#include "compute/device/record_groups.h"
 #include "compute/step/state.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
 #include "host/canvas/canvas.h"
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/device.h"
+#include "shaders/physics/base/record_groups.h"
 
 using namespace scree;
 using namespace scree::host;
@@ -333,7 +335,6 @@ TEST_CASE("canvases: tables in host memory and on the device give the same pixel
     world.step(20);
     const ShapeInstances instances = demos::instances_of(world);
     const auto canvas = make_vulkan_canvas(validated_device(), instances, options_of(1, true, true));
-    const Image from_memory = picture(*canvas, world, {});
     BodyTables tables = demos::tables_of(world.state());
     std::vector<std::unique_ptr<Buffer>> buffers;
     for (TableView* const table : {&tables.properties, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
@@ -341,8 +342,25 @@ TEST_CASE("canvases: tables in host memory and on the device give the same pixel
         buffers.back()->write(table->bytes.data(), table->bytes.size());
         *table = buffers.back().get();
     }
-    canvas->set_tables(tables);
+    // As a device has them.
+    const std::size_t record = sizeof(physics::ContactImpulse), count = tables.pushes.buffer->bytes() / record;
+    std::vector<std::byte> records(count * record), groups(bytes_in_groups(count, record));
+    tables.pushes.buffer->read(records.data(), records.size());
+    to_groups(records, record, groups);
+    buffers.push_back(std::make_unique<Buffer>(validated_device(), "pushes in groups", groups.size()));
+    buffers.back()->write(groups.data(), groups.size());
+    BodyTables in_groups = tables;
+    in_groups.pushes = buffers.back().get();
+    in_groups.push_shift = physics::GROUP_SHIFT;
+    REQUIRE(tables.touch_count > 2 * physics::RECORDS_OF_GROUP);
     const View view;
-    CHECK(canvas->draw(view.camera, view.scale, view.caption, view.low, view.high).rgba == from_memory.rgba);
+    for (const BodyTables& shown : {tables, in_groups})
+        for (const ColorBy by : {ColorBy::momentum, ColorBy::contact_impulse}) {
+            const ColorScale scale{.by = by, .low = 0, .high = by == ColorBy::momentum ? view.scale.high : 20.0f};
+            canvas->set_tables(demos::tables_of(world.state()));
+            const Image expected = canvas->draw(view.camera, scale, view.caption, view.low, view.high);
+            canvas->set_tables(shown);
+            CHECK(canvas->draw(view.camera, scale, view.caption, view.low, view.high).rgba == expected.rgba);
+        }
     CHECK(validated_device()->validation_messages().empty());
 }
