@@ -209,7 +209,7 @@ void Share::end(State& state, Exchange& exchange) {
             state.strains[body.id] = body.strain;
         }
     }
-    state.take_rows({});
+    state.take_rows({}, state.rows_bounce());
 }
 
 void Share::take_in(State& state, std::span<const std::uint32_t> ids) {

@@ -113,10 +113,10 @@ void State::number_rows() {
     for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
 }
 
-void State::take_rows(std::vector<std::uint32_t> rows) {
+void State::take_rows(std::vector<std::uint32_t> rows, bool rows_bounce) {
     rows_ = std::move(rows);
     number_rows();
-    row_content_ = {};
+    row_content_ = {.bounces = rows_bounce};
     note_content(0, fixed().bodies);
     spare_parts.clear();
     spare_fractures.clear();

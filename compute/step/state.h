@@ -199,11 +199,12 @@ struct State {
     std::uint32_t id_of(std::uint32_t row) const {
         return rows_.empty() ? row : ids[row];
     }
-    // For checkpoints: the rows by id (empty: equal to ids). Taking them numbers the rows and notes their features anew.
+    // For checkpoints: the rows by id (empty: equal to ids). Taking them numbers the rows and notes their features anew, but for
+    // restitution that some body may have had.
     const std::vector<std::uint32_t>& rows() const {
         return rows_;
     }
-    void take_rows(std::vector<std::uint32_t> rows);
+    void take_rows(std::vector<std::uint32_t> rows, bool rows_bounce);
 
     // Set in a rank's share of a world, which has rows of some bodies only (compute/distributed/share.h): the id of the first
     // part.
@@ -247,7 +248,11 @@ struct State {
     }
     // Whether contacts may have impacts: tables of impacts have a record for each contact, else none.
     bool bounces() const {
-        return row_content_.bounces || fixed().least_restitution > 0;
+        return rows_bounce() || fixed().least_restitution > 0;
+    }
+    // Whether some body has or has had restitution: it may have ended while impacts last.
+    bool rows_bounce() const {
+        return row_content_.bounces;
     }
     // The impulse of a contact, and of one of the last step, with its impact.
     physics::Impulse impulse(std::size_t contact) const {
@@ -263,11 +268,6 @@ struct State {
     void keep_impulse_before(std::size_t contact, const physics::Impulse& impulse) {
         impulses_before[contact] = physics::contact_impulse_of(impulse);
         if (bounces()) impacts_before[contact] = physics::contact_impact_of(impulse);
-    }
-    // Has bounces() from now on, until features are noted anew.
-    void note_restitution() {
-        row_content_.bounces = true;
-        fit_impacts();
     }
     // Gives the tables of impacts that are here the length that follows from bounces(); records added are 0.
     void fit_impacts();

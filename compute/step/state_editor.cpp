@@ -87,10 +87,10 @@ TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
 }
 
 TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
-    const TableRanges changed = needed_to_tune(settings);
     const float h_before = state_.fixed().h;
     state_.fixed() = tuned(state_.fixed(), gravity, settings);
     state_.fit_impacts();
+    const TableRanges changed = needed_to_tune(settings);
     if (settings.substeps == state_.substeps) return {};
     state_.substeps = settings.substeps;
     const float factor = state_.fixed().h / h_before;

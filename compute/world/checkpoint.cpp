@@ -428,7 +428,7 @@ void World::Impl::put_shares(const TakePiece& take) const {
     ByteWriter front, back;
     front.put_list(std::span<const std::byte>(edits));  // since the shares were made
     put_world(front);
-    put_numbers(front, state, parts.parameters(), parts.counts(), parts.bounces());
+    put_numbers(front, state, parts.parameters(), parts.counts(), parts.rows_bounce());
     put_shapes(back, state, shapes_at_start);
     Head head = head_of(fingerprint, steps);
     head.bytes = front.bytes().size() + parts.bytes() + back.bytes().size();

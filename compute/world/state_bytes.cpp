@@ -115,12 +115,12 @@ std::uint64_t layout_of_tables() {
 }
 
 void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts,
-                 bool bounces) {
+                 bool rows_bounce) {
     out.put(portable(parameters));
     out.put(portable(counts));
     out.put(static_cast<std::int32_t>(state.substeps));
     out.put(state.body_count);
-    out.put(bounces);
+    out.put(rows_bounce);
     out.put_list(std::span(state.is_share() ? std::vector<std::uint32_t>() : state.rows()));
     out.put_list(std::span(state.joint_records));
 }
@@ -144,7 +144,7 @@ void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_star
 }
 
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
-    put_numbers(out, state, state.fixed(), state.counted(), state.bounces());
+    put_numbers(out, state, state.fixed(), state.counted(), state.rows_bounce());
     const auto stepped = stepped_tables(state.fixed().bodies, state.counted().contacts, state.bounces(), which);
     std::size_t bytes = 0;
     for (const auto& [table, count] : stepped) bytes += count * record_bytes(table);
@@ -158,13 +158,14 @@ StateBytes::StateBytes(ByteReader& in, const State& own, const StartLengths& at_
       counts_(in.take<physics::Counts>()),
       substeps_(in.take<std::int32_t>()),
       body_count_(in.take<std::uint32_t>()),
-      bounces_(in.take<bool>()),
+      rows_bounce_(in.take<bool>()),
       rows_(in.take_list<std::uint32_t>()),
       joint_records_(in.take_list<std::uint32_t>()),
       at_start_(at_start),
       which_(which) {
     const std::size_t rows = parameters_.bodies;
-    for (const auto& [table, count] : stepped_tables(rows, counts_.contacts, bounces_, which))
+    for (const auto& [table, count] :
+         stepped_tables(rows, counts_.contacts, rows_bounce_ || parameters_.least_restitution > 0, which))
         tables_.emplace_back(table, in.take_bytes(count * record_bytes(table)));
     joints_ = in.take_records(sizeof(physics::Joint));
     joint_blocks_ = in.take_records(sizeof(physics::JointBlock));
@@ -268,8 +269,7 @@ TableRanges StateBytes::restore(State& state) const {
         else if (!bytes.empty())
             std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
     }
-    state.take_rows(rows_);
-    if (bounces_) state.note_restitution();  // of a body that is gone, too
+    state.take_rows(rows_, rows_bounce_);
     if (which_ == SteppedTables::all) {
         state.clear_impacts();
         if (!impacts.empty()) std::memcpy(state.impacts.data(), impacts.data(), impacts.size());

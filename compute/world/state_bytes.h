@@ -36,9 +36,9 @@ enum class SteppedTables {
 };
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
 // Its three parts: numbers of the whole state, the tables that steps change with their lengths, and those of shapes and joints.
-// `bounces`: whether contacts have impacts.
+// `rows_bounce`: of the whole state.
 void put_numbers(ByteWriter& out, const State& state, const physics::Parameters& parameters, const physics::Counts& counts,
-                 bool bounces);
+                 bool rows_bounce);
 std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, bool bounces,
                                                           SteppedTables which = SteppedTables::all);
 void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_start);
@@ -71,7 +71,7 @@ private:
     physics::Counts counts_;
     int substeps_;
     std::uint32_t body_count_;
-    bool bounces_;
+    bool rows_bounce_;
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
     std::span<const std::byte> joints_, joint_blocks_, block_bodies_, vehicles_;

@@ -39,11 +39,11 @@ StateParts::StateParts(const State& share, const Runner& runner) : state_(share)
     for_each_contact(0, rows_, [&](std::uint32_t, std::uint32_t) { ++own; });
     ByteWriter out;
     out.put(own);
-    out.put(share.bounces());
+    out.put(share.rows_bounce());
     for (const std::vector<std::byte>& one : runner.gather(out.bytes())) {
         ByteReader in(one);
         contacts_ += in.take<std::uint64_t>();
-        bounces_ |= in.take<bool>();
+        rows_bounce_ |= in.take<bool>();
     }
 }
 
@@ -63,12 +63,13 @@ physics::Counts StateParts::counts() const {
 
 std::uint64_t StateParts::bytes() const {
     std::uint64_t all = 0;
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_, bounces_)) all += count * bytes_of_record(table);
+    for (const auto& [table, count] : stepped_tables(rows_, contacts_, rows_bounce_ || state_.fixed().least_restitution > 0))
+        all += count * bytes_of_record(table);
     return all;
 }
 
 void StateParts::put_tables(const Take& take) const {
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_, bounces_)) {
+    for (const auto& [table, count] : stepped_tables(rows_, contacts_, rows_bounce_ || state_.fixed().least_restitution > 0)) {
         std::uint32_t before = 0;
         for (std::uint32_t first = 0; first < rows_; first += rows_of_piece) {
             const std::uint32_t last = std::min(first + rows_of_piece, rows_);

@@ -24,7 +24,7 @@ public:
     StateParts(const State& share, const Runner& runner);
     physics::Parameters parameters() const;  // of the whole state
     physics::Counts counts() const;
-    bool bounces() const { return bounces_; }
+    bool rows_bounce() const { return rows_bounce_; }
     std::uint64_t bytes() const;  // of the tables that steps change, in all
     // On the first rank, calls take() with these bytes in their order.
     void put_tables(const Take& take) const;
@@ -42,7 +42,7 @@ private:
     const Runner& runner_;
     std::uint32_t rows_ = 0;      // of the whole state
     std::uint64_t contacts_ = 0;  // likewise
-    bool bounces_ = false;        // on some rank
+    bool rows_bounce_ = false;    // those of some rank
 };
 
 }  // namespace scree

@@ -34,7 +34,6 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.slot_ends = words(state.slot_ends);
     tables.contacts_before = words(state.contacts_before);
     tables.impulses_before = words(state.impulses_before);
-    tables.impacts_before = state.bounces() ? words(state.impacts_before) : nullptr;
     tables.contact_pairs = state.contact_pairs.data();
     tables.contact_slots = state.contact_slots.data();
     tables.pairs = words(state.pairs);

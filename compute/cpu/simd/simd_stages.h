@@ -14,7 +14,6 @@ struct WideTables {
     const std::uint32_t* slot_ends;
     const std::uint32_t* contacts_before;  // of the last step
     const std::uint32_t* impulses_before;
-    const std::uint32_t* impacts_before;  // null: no body has restitution
     const std::uint32_t* contact_pairs;
     const std::uint32_t* contact_slots;
     std::uint32_t* pairs;
@@ -29,7 +28,7 @@ struct WideTables {
     std::uint32_t* scaled_motions;
     std::uint32_t* forces;
     std::uint32_t* impulses;
-    std::uint32_t* impacts;  // likewise
+    std::uint32_t* impacts;  // null: no contact has restitution
     std::uint32_t* slots;
     // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`.
     std::uint32_t* out = nullptr;
