@@ -21,12 +21,15 @@ const uint EVERY_MEMBER = 0xFFFFFFFFu;
 #else
 #define SCREE_GROUPED_QUAD_OF_SOLVER SCREE_GROUPED_QUAD
 #endif
+// clang-format off
 SCREE_READER_ContactImpulse(impulses, SCREE_GROUPED_QUAD_OF_SOLVER, SCREE_GROUPED)
-    SCREE_READER_ContactImpulse(impulses_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
-        SCREE_READER_ContactImpact(impacts, SCREE_GROUPED_QUAD_OF_SOLVER, SCREE_GROUPED)
-            SCREE_READER_ContactImpact(impacts_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
-                SCREE_READER_Constraint(constraints, SCREE_GROUPED_QUAD, SCREE_GROUPED)
-                    SCREE_WRITER_ContactImpulse(impulses, SCREE_GROUPED) SCREE_WRITER_ContactImpact(impacts, SCREE_GROUPED)
-                        SCREE_WRITER_Constraint(constraints, SCREE_GROUPED)
+SCREE_READER_ContactImpulse(impulses_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
+SCREE_READER_ContactImpact(impacts, SCREE_GROUPED_QUAD_OF_SOLVER, SCREE_GROUPED)
+SCREE_READER_ContactImpact(impacts_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
+SCREE_READER_Constraint(constraints, SCREE_GROUPED_QUAD, SCREE_GROUPED)
+SCREE_WRITER_ContactImpulse(impulses, SCREE_GROUPED)
+SCREE_WRITER_ContactImpact(impacts, SCREE_GROUPED)
+SCREE_WRITER_Constraint(constraints, SCREE_GROUPED)
+// clang-format on
 
 #endif
