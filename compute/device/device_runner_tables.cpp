@@ -56,9 +56,6 @@ bool lasts(std::size_t buffer) {
     return false;
 }
 
-std::size_t record_bytes(Table table) {
-    return table_infos()[static_cast<std::size_t>(table)].record_bytes;
-}
 bool is_grouped(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].is_grouped;
 }

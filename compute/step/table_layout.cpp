@@ -41,6 +41,10 @@ const std::array<BufferInfo, buffer_count>& buffer_infos() {
     return infos;
 }
 
+std::size_t record_bytes(Table table) {
+    return table_infos()[index_of(table)].record_bytes;
+}
+
 bool share_buffer(Table one, Table other) {
 #define SCREE_BUFFER(buffer, name, block, record, length) buffer,
     static constexpr std::array buffers{SCREE_TABLES(SCREE_BUFFER)};

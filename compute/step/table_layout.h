@@ -19,6 +19,7 @@ struct BufferInfo {
 };
 const std::array<BufferInfo, buffer_count>& buffer_infos();  // by binding
 
+std::size_t record_bytes(Table table);
 // Whether two tables are in one buffer.
 bool share_buffer(Table one, Table other);
 // The table in whose memory a table is; most are in their own.

@@ -17,10 +17,6 @@ namespace scree {
 
 namespace {
 
-std::size_t record_bytes(Table table) {
-    return table_infos()[static_cast<std::size_t>(table)].record_bytes;
-}
-
 std::span<const std::byte> records_of(const State& state, Table table, std::size_t count) {
     return state.raw(table).first(count * record_bytes(table));
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "compute/step/table_layout.h"
 #include "compute/world/byte_stream.h"
 #include "compute/world/state_bytes.h"
 
@@ -14,10 +15,6 @@ namespace {
 
 // Rows of a piece: some megabytes of contacts.
 constexpr std::uint32_t rows_of_piece = 8192;
-
-std::size_t bytes_of_record(Table table) {
-    return table_infos()[static_cast<std::size_t>(table)].record_bytes;
-}
 
 // A contact by its place in the whole table: the row that owns it, and the id of its other body.
 struct ContactPlace {
@@ -61,15 +58,18 @@ physics::Counts StateParts::counts() const {
     return counts;
 }
 
+std::vector<std::pair<Table, std::size_t>> StateParts::stepped() const {
+    return stepped_tables(rows_, contacts_, rows_bounce_ || state_.fixed().least_restitution > 0);
+}
+
 std::uint64_t StateParts::bytes() const {
     std::uint64_t all = 0;
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_, rows_bounce_ || state_.fixed().least_restitution > 0))
-        all += count * bytes_of_record(table);
+    for (const auto& [table, count] : stepped()) all += count * record_bytes(table);
     return all;
 }
 
 void StateParts::put_tables(const Take& take) const {
-    for (const auto& [table, count] : stepped_tables(rows_, contacts_, rows_bounce_ || state_.fixed().least_restitution > 0)) {
+    for (const auto& [table, count] : stepped()) {
         std::uint32_t before = 0;
         for (std::uint32_t first = 0; first < rows_; first += rows_of_piece) {
             const std::uint32_t last = std::min(first + rows_of_piece, rows_);
@@ -91,7 +91,7 @@ std::vector<std::vector<std::byte>> StateParts::told(std::vector<std::byte> said
 }
 
 void StateParts::put_rows(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const {
-    const std::size_t bytes = bytes_of_record(table);
+    const std::size_t bytes = record_bytes(table);
     const std::span<const std::byte> records = state_.raw(table);
     ByteWriter out;
     for (std::uint32_t whole = first; whole < last; ++whole) {
@@ -155,7 +155,7 @@ void StateParts::put_contacts(Table table, std::uint32_t first, std::uint32_t la
         else
             out.put(physics::contact_impact_of(state_.impulse(k)));
     });
-    const std::size_t bytes = bytes_of_record(table);
+    const std::size_t bytes = record_bytes(table);
     std::vector<std::pair<ContactPlace, std::span<const std::byte>>> piece;
     const std::vector<std::vector<std::byte>> all = told(std::move(out.bytes()));
     for (const std::vector<std::byte>& one : all)

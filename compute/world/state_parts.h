@@ -30,6 +30,7 @@ public:
     void put_tables(const Take& take) const;
 
 private:
+    std::vector<std::pair<Table, std::size_t>> stepped() const;  // the tables that steps change, with their lengths
     void put_rows(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
     void put_first_contacts(std::uint32_t first, std::uint32_t last, std::uint32_t& before, const Take& take) const;
     void put_contacts(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
