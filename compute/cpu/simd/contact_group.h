@@ -16,12 +16,34 @@ struct Kept {
 SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
     return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
 }
-// Of large worlds they come from beyond the second cache.
-SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last) {
+// Of large worlds they come from beyond the second cache. What the next group has, by the points of this one, which are as many
+// in most cases.
+template <bool plain>
+SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last, const Constraint& now) {
     if (!tables.prefetches || last - first <= lanes) return;
-    const char* const next = reinterpret_cast<const char*>(&kept(tables, first + lanes));
-#pragma GCC unroll 4
-    for (std::size_t line = 0; line < sizeof(Kept); line += 64) __builtin_prefetch(next + line);
+    const Kept& next = kept(tables, first + lanes);
+    const auto fetch = [](const auto& from, const auto& to) {
+        const char* const end = reinterpret_cast<const char*>(&to + 1);
+        for (const char* line = reinterpret_cast<const char*>(&from); line < end; line += 64) __builtin_prefetch(line);
+    };
+    const auto fetch_points = [&](const vec4& of) {
+        fetch(of.x, of.x);
+        if (!none(point_count(now) > 1u)) fetch(of.y, of.y);
+        if (!none(point_count(now) > 2u)) fetch(of.z, of.w);
+    };
+    fetch(next.c.a, next.c.friction);
+    fetch_points(next.c.arms_x);
+    fetch_points(next.c.arms_y);
+    fetch_points(next.c.arms_z);
+    if (!plain) fetch(next.c.drive1, next.c.restitution_threshold);
+    fetch(next.c.centre, next.c.twist_arm);
+    if (!plain) fetch(next.c.rolling_resistance, next.c.restitution);
+    fetch(next.c.flags, next.c.flags);
+    fetch(next.c.slide_limit, next.c.slide_limit);
+    fetch(next.impulse.normal, next.impulse.solved_normal);
+    fetch_points(next.impulse.separation);
+    if (!plain) fetch(next.impulse.impact, next.impulse.flight_energy);
+    fetch(next.impulse.friction, next.impulse.turn);
 }
 
 // Specialisation by the features of a scene, as for devices (shaders/stages/lib/features.glsl): the compiler removes the

@@ -54,17 +54,18 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
 // What the next group of contacts reads of the tables.
 SCREE_INLINE void prefetch_inherited(const WideTables& tables, std::size_t first, std::size_t last) {
     if (last < first + lanes) return;
-    const auto fetch = [](const std::uint32_t* table, std::size_t words, std::size_t record) {
-        const char* const begin = reinterpret_cast<const char*>(table + words * record);
-        for (std::size_t line = 0; line < 4 * words; line += 64) __builtin_prefetch(begin + line);
-    };
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::uint32_t contact = tables.items[first + lane], index = tables.contact_pairs[contact];
-        constexpr std::size_t words_of_pair = sizeof(Pair) / sizeof(Words);
-        const std::uint32_t previous = tables.pairs[words_of_pair * index + offsetof(Pair, previous) / sizeof(Words)];
-        fetch(tables.contacts, sizeof(Contact) / sizeof(Words), contact);
-        fetch(tables.manifolds, sizeof(Manifold) / sizeof(Words), index);
-        if (previous != nowhere) fetch(tables.impulses_before, words_of_impulse, previous);
+        const std::uint32_t contact = tables.items[first + lane], pair = tables.contact_pairs[contact];
+        const PairWords words(tables, pair);
+        prefetch<Contact>(tables.contacts, contact);
+        prefetch<Manifold>(tables.manifolds, pair);
+        if (words.previous != nowhere) prefetch<ContactImpulse>(tables.impulses_before, words.previous);
+        if (!tables.prefetches) continue;
+        for (const std::uint32_t row : words.rows) {
+            prefetch<BodyProperties>(tables.properties, row);
+            prefetch<BodyMass>(tables.masses, row);
+            prefetch<Velocity>(tables.velocities, row);
+        }
     }
 }
 
@@ -144,8 +145,8 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        prefetch_next(tables, first, last);
         const Group<plain> group(tables, first, last);
+        prefetch_next<plain>(tables, first, last, group.c);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
         const SolveResult after =
@@ -197,8 +198,8 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        prefetch_next(tables, first, last);
         const Group<plain> group(tables, first, last);
+        prefetch_next<plain>(tables, first, last, group.c);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),

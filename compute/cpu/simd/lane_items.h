@@ -30,6 +30,22 @@ SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
     return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
 }
 
+// Asks for the lines of the record at that index of a table: for the next group, while this one is computed.
+template <typename Record>
+SCREE_INLINE void prefetch(const std::uint32_t* table, std::uint32_t index) {
+    constexpr std::size_t words = sizeof(Record) / sizeof(Words), bytes = words * sizeof *table;
+    const char* const record = reinterpret_cast<const char*>(table + words * index);
+    for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(record + at);
+}
+// A Pair of the tables.
+struct PairWords {
+    std::uint32_t rows[2], pair_type, previous;
+    SCREE_INLINE PairWords(const WideTables& tables, std::size_t index) {
+        static_assert(sizeof(PairWords) == sizeof(Pair) / lanes);
+        __builtin_memcpy(this, tables.pairs + sizeof(PairWords) / sizeof(std::uint32_t) * index, sizeof(PairWords));
+    }
+};
+
 SCREE_INLINE Uint body_of(Uint row, const BodyProperties& properties) {
     return choose(is_part(properties), properties.owner, row);
 }
