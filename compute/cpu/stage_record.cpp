@@ -9,6 +9,7 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/statistics.h"
+#include "compute/step/table_layout.h"
 #include "compute/world/byte_stream.h"
 #include "compute/world/state_bytes.h"
 
@@ -117,8 +118,7 @@ LockstepResult compare_with_record(std::span<const std::byte> record, const Scen
                 return table_equal(stepping.state, written, compared, "here", "recorded", result);
             result.equal = false;
             result.buffer = table_infos()[static_cast<std::size_t>(compared.table)].name;
-            result.element =
-                std::min(written.size(), here.size()) / table_infos()[static_cast<std::size_t>(compared.table)].record_bytes;
+            result.element = std::min(written.size(), here.size()) / record_bytes(compared.table);
             result.detail =
                 std::to_string(here.size()) + " bytes here, " + std::to_string(written.size()) + " recorded by " + stage;
             return false;

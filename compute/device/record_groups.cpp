@@ -11,6 +11,7 @@ namespace scree {
 namespace {
 
 constexpr std::size_t group = physics::RECORDS_OF_GROUP, quad_bytes = 16;
+static_assert(physics::RECORDS_OF_GROUP == 1u << physics::GROUP_SHIFT);
 
 // Calls copy(offset of a quad among records one after the other, offset in groups).
 template <class Copy>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compute/step/table_layout.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -22,7 +23,7 @@ void append_rows(TableRanges& ranges, Table table, const std::vector<std::uint32
 }
 
 TableRange whole(const State& state, Table table) {
-    return {table, 0, state.raw_bytes(table) / table_infos()[static_cast<std::size_t>(table)].record_bytes};
+    return {table, 0, state.raw_bytes(table) / record_bytes(table)};
 }
 
 }  // namespace

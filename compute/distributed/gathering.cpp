@@ -6,6 +6,7 @@
 
 #include "compute/distributed/ownership.h"
 #include "compute/distributed/packing.h"
+#include "compute/step/table_layout.h"
 
 namespace scree {
 
@@ -18,7 +19,7 @@ struct TracedContact {
 
 // The records of owned rows in a range of a table of bodies.
 void gather_rows(State& state, Exchange& exchange, const TableRange& range) {
-    const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+    const std::size_t bytes = record_bytes(range.table);
     const std::span<std::byte> table = state.raw(range.table);
     const std::size_t last = std::min(range.first + range.count, table.size() / bytes);
     Bytes said;

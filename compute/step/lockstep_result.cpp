@@ -7,6 +7,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "compute/step/table_layout.h"
+
 namespace scree {
 
 namespace {
@@ -36,8 +38,7 @@ bool are_fresh_nans(const std::byte* one, const std::byte* other) {
 }  // namespace
 
 std::span<const std::byte> live_bytes(const State& state, const Compared& compared) {
-    return state.raw(compared.table)
-        .first(state.live(compared.length) * table_infos()[static_cast<std::size_t>(compared.table)].record_bytes);
+    return state.raw(compared.table).first(state.live(compared.length) * record_bytes(compared.table));
 }
 
 bool table_equal(const State& state, std::span<const std::byte> found, const Compared& compared, const char* here,

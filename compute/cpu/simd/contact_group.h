@@ -16,8 +16,8 @@ struct Kept {
 SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
     return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
 }
-// Of large worlds they come from beyond the second cache. What the next group has, by the points of this one, which are as many
-// in most cases.
+// Prefetches what the passes read of the next group, but for what is of round contacts alone; in large worlds groups lie beyond
+// the second cache. The next group is taken to have as many points as this one, as most have.
 template <bool plain>
 SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last, const Constraint& now) {
     if (!tables.prefetches || last - first <= lanes) return;
@@ -39,6 +39,7 @@ SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std
     fetch(next.c.centre, next.c.twist_arm);
     if (!plain) fetch(next.c.rolling_resistance, next.c.restitution);
     fetch(next.c.flags, next.c.flags);
+    if (!plain) fetch(next.c.tyre_slip, next.c.tyre_slip);
     fetch(next.c.slide_limit, next.c.slide_limit);
     fetch(next.impulse.normal, next.impulse.solved_normal);
     fetch_points(next.impulse.separation);

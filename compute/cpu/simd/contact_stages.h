@@ -58,8 +58,11 @@ SCREE_INLINE void prefetch_inherited(const WideTables& tables, std::size_t first
         const std::uint32_t contact = tables.items[first + lane], pair = tables.contact_pairs[contact];
         const PairWords words(tables, pair);
         prefetch<Contact>(tables.contacts, contact);
-        prefetch<Manifold>(tables.manifolds, pair);
         if (words.previous != nowhere) prefetch<ContactImpulse>(tables.impulses_before, words.previous);
+        if (words.pair_type == PAIR_PERSISTENT.v[0])
+            prefetch<Manifold>(tables.manifolds, pair);
+        else if (words.previous != nowhere)
+            prefetch<Contact>(tables.contacts_before, words.previous);
         if (!tables.prefetches) continue;
         for (const std::uint32_t row : words.rows) {
             prefetch<BodyProperties>(tables.properties, row);

@@ -36,6 +36,7 @@ SCREE_INLINE void prefetch(const std::uint32_t* table, std::uint32_t index) {
     constexpr std::size_t words = sizeof(Record) / sizeof(Words), bytes = words * sizeof *table;
     const char* const record = reinterpret_cast<const char*>(table + words * index);
     for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(record + at);
+    __builtin_prefetch(record + bytes - 1);  // records begin anywhere in a line
 }
 // A Pair of the tables.
 struct PairWords {

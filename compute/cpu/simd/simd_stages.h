@@ -40,7 +40,7 @@ struct WideTables {
     bool watched = false;                  // tables are read after every stage: impulses not after the last alone, impacts always
     bool sums_impacts = true;       // BodyForces.impacts is written: some body may be in an impact with restitution, or `watched`
     bool warm_starts = false;       // preparation warm-starts contacts from the last step, and is that of all contacts
-    bool prefetches = false;        // `groups` and tables of bodies are larger than the second cache
+    bool prefetches = false;        // `groups`, and so probably tables of bodies, are larger than the second cache
     float* impact_debts = nullptr;  // of each body, J (restitution.h)
     float* carried = nullptr;       // normal impulse of each contact in the step, N s; null if no body may break
     std::uint32_t steps = 0;        // Counts::steps in the first substep, for the hysteresis of mass splitting
