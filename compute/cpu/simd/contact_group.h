@@ -16,8 +16,8 @@ struct Kept {
 SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
     return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
 }
-// Prefetches what the passes read of the next group, but for what is of round contacts alone; in large worlds groups lie beyond
-// the second cache. The next group is taken to have as many points as this one, as most have.
+// Prefetches the lines that the passes read of the next group, which in large worlds lies beyond the second cache. The next group
+// is taken to have as many points as this one, as most have; the radii of round contacts are left out.
 template <bool plain>
 SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std::size_t last, const Constraint& now) {
     if (!tables.prefetches || last - first <= lanes) return;

@@ -51,7 +51,7 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     return found;
 }
 
-// What the next group of contacts reads of the tables.
+// Prefetches what preparation reads of the next group of contacts; of parts it is their own rows, not their bodies'.
 SCREE_INLINE void prefetch_inherited(const WideTables& tables, std::size_t first, std::size_t last) {
     if (last < first + lanes) return;
     for (std::size_t lane = 0; lane < lanes; ++lane) {

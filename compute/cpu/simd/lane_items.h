@@ -30,7 +30,7 @@ SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
     return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
 }
 
-// Asks for the lines of the record at that index of a table: for the next group, while this one is computed.
+// Prefetches the record at that index of a table: for the next group, while this one is computed.
 template <typename Record>
 SCREE_INLINE void prefetch(const std::uint32_t* table, std::uint32_t index) {
     constexpr std::size_t words = sizeof(Record) / sizeof(Words), bytes = words * sizeof *table;

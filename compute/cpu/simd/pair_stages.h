@@ -22,8 +22,8 @@ struct PairGroup {
           contact(gather<Contact>(tables.contacts_before, Indices(pair.previous))) {}
 };
 
-// What the next group of pairs that may persist reads of the tables.
-SCREE_INLINE void prefetch_kept(const WideTables& tables, std::size_t first, std::size_t last) {
+// Prefetches what is read of the next group of pairs that may persist; of parts it is their own rows, not their bodies'.
+SCREE_INLINE void prefetch_pairs(const WideTables& tables, std::size_t first, std::size_t last) {
     if (last < first + lanes) return;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const PairWords words(tables, tables.items[first + lane]);
@@ -38,7 +38,7 @@ SCREE_INLINE void prefetch_kept(const WideTables& tables, std::size_t first, std
 
 void keep(const WideTables& tables, std::size_t first, std::size_t last) {
     for (; first < last; first += lanes) {
-        prefetch_kept(tables, first + lanes, last);
+        prefetch_pairs(tables, first + lanes, last);
         const PairGroup group(tables, first, last);
         const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
         const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
