@@ -48,9 +48,11 @@ std::string mutated(std::string text, std::mt19937& random) {
             case 1:
                 text.erase(at, below(std::min<std::size_t>(text.size() - at, 200)) + 1);
                 break;
-            case 2:
-                text.insert(at, text.substr(below(text.size()), below(300)));
+            case 2: {
+                const std::size_t from = below(text.size());
+                text.insert(at, text.substr(from, below(300)));
                 break;
+            }
             case 3:
                 text.resize(at);
                 break;

@@ -42,7 +42,8 @@ Hinge driven_hinge(Random& random) {
     if (random.below(3) == 0)
         hinge.turn.friction = random.between(0.1f, 3);
     else
-        hinge.turn.motor = Motor{(random.below(2) == 0 ? -1 : 1) * random.between(1, 5), random.between(0.5f, 50)};
+        hinge.turn.motor = random.below(2) == 0 ? Motor{-random.between(1, 5), random.between(0.5f, 50)}
+                                                : Motor{random.between(1, 5), random.between(0.5f, 50)};
     return hinge;
 }
 
@@ -175,7 +176,7 @@ Scene random_block(const JointCase& what, std::uint32_t seed) {
     Scene scene;
     for (std::size_t i = 0; i < what.bodies; ++i) {
         Body body;
-        body.shape = Box{vec3(random.between(0.08f, 0.2f), random.between(0.08f, 0.2f), random.between(0.08f, 0.2f))};
+        body.shape = Box{{random.between(0.08f, 0.2f), random.between(0.08f, 0.2f), random.between(0.08f, 0.2f)}};
         body.density = random.between(300, 3000);
         body.position = place_of(what, i);
         body.orientation = random.turn(random.between(0, 3));

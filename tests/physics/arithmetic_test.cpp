@@ -65,7 +65,7 @@ std::vector<vec4> turns() {
     std::vector<vec4> found = {{0, 0, 0, 1}, {0, 0, 0, -1}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0.5f, 0.5f, 0.5f, 0.5f}};
     tests::Noise noise(12);
     while (found.size() < 2000) {
-        const glm::dvec4 q(noise(), noise(), noise(), noise());
+        const glm::dvec4 q{noise(), noise(), noise(), noise()};
         if (glm::length(q) > 0.1) found.emplace_back(glm::normalize(q));
     }
     return found;

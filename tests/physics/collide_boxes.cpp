@@ -98,9 +98,9 @@ TEST_CASE("equal boxes stacked with a tremble keep their four corners and featur
         const float height = sunk ? 0.998f : 1.0f;
         const uint features = collide(cube, at(0, 0, 0), cube, at(0, height, 0), margin).manifold.features;
         for (int k = 0; k < 500; ++k) {
-            const vec4 tremble = turn(chance.direction(), chance.between(0, 1e-4f));
-            const Pose above =
-                at(chance.between(-1e-4f, 1e-4f), height + chance.between(-1e-4f, 1e-4f), chance.between(-1e-4f, 1e-4f), tremble);
+            const vec4 tremble = chance.turn_up_to(1e-4f);
+            const vec3 shift{chance.between(-1e-4f, 1e-4f), chance.between(-1e-4f, 1e-4f), chance.between(-1e-4f, 1e-4f)};
+            const Pose above = at(shift.x, height + shift.y, shift.z, tremble);
             const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, above, margin);
             REQUIRE(touch.count == 4u);
             REQUIRE(touch.manifold.normal == vec3(0, 1, 0));
@@ -160,7 +160,7 @@ TEST_CASE("a box sliding by millimetres on a larger one keeps its points and fea
     const vec4 orientation = turn(vec3(0, 1, 0), 0.3f);
     const uint features = collide(slab, at(0, 0, 0), cube, at(-0.6f, 0.999f, 0.1f, orientation), margin).manifold.features;
     for (int k = 0; k < 1200; ++k) {
-        const vec4 tremble = physics::compose(turn(chance.direction(), chance.between(0, 1e-4f)), orientation);
+        const vec4 tremble = physics::compose(chance.turn_up_to(1e-4f), orientation);
         const Pose pose = at(-0.6f + 0.001f * float(k), 0.999f + chance.between(-1e-4f, 1e-4f), 0.1f, tremble);
         const ManifoldBuffer touch = collide(slab, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
@@ -201,9 +201,9 @@ TEST_CASE("a box turned on an equal one holds by four points that surround its c
 TEST_CASE("the deepest of many points is kept", "[collide]") {
     Chance chance(21);
     for (int k = 0; k < 2000; ++k) {
-        const vec4 orientation =
-            physics::compose(turn(chance.direction(), chance.between(0, 0.02f)), turn(vec3(0, 1, 0), chance.between(0, 6)));
-        const Pose pose = at(chance.between(-0.4f, 0.4f), 0.995f, chance.between(-0.4f, 0.4f), orientation);
+        const vec4 tilt = chance.turn_up_to(0.02f), yaw = turn(vec3(0, 1, 0), chance.between(0, 6));
+        const float x = chance.between(-0.4f, 0.4f), z = chance.between(-0.4f, 0.4f);
+        const Pose pose = at(x, 0.995f, z, physics::compose(tilt, yaw));
         const ManifoldBuffer few = collide(cube, at(0, 0, 0), cube, pose, margin);
         const ManifoldBuffer wide = collide(cube, at(0, 0, 0), box(0.5f, 0.5f, 0.5f), pose, 10.0f);
         REQUIRE(few.count > 0u);

@@ -102,7 +102,7 @@ bool meet(Chance& chance, const ShapePair& pair, float gap, Meeting& meeting) {
     const vec3 way = chance.direction();
     meeting.a = chance.body(pair.a);
     meeting.b = chance.body(pair.b);
-    meeting.pose_a = Pose{vec3(chance.between(-2, 2), chance.between(-2, 2), chance.between(-2, 2)), 0, chance.orientation()};
+    meeting.pose_a = Pose{{chance.between(-2, 2), chance.between(-2, 2), chance.between(-2, 2)}, 0, chance.orientation()};
     meeting.pose_b = Pose{meeting.pose_a.position + 5.0f * way + 0.5f * chance.direction(), 0, chance.orientation()};
     const float remaining = std::max(gap, 0.001f);
     for (int k = 0; k < 100; ++k) {

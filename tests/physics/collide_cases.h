@@ -151,16 +151,32 @@ public:
     float between(float low, float high) { return low + (high - low) * (float(engine_() >> 8) * 0x1p-24f); }
     vec3 direction() {
         for (;;) {
-            const vec3 v(between(-1, 1), between(-1, 1), between(-1, 1));
+            const vec3 v{between(-1, 1), between(-1, 1), between(-1, 1)};
             const float length = glm::length(v);
             if (length > 0.1f && length < 1.0f) return v / length;
         }
     }
-    vec4 orientation() { return turn(direction(), between(0, 6.2831853f)); }
+    // Up to `reach` (m) from the origin, in any direction.
+    vec3 point_within(float reach) {
+        const vec3 way = direction();
+        return way * between(0, reach);
+    }
+    // By 0 to `angle` (rad) about any axis.
+    vec4 turn_up_to(float angle) {
+        const vec3 axis = direction();
+        return turn(axis, between(0, angle));
+    }
+    vec4 orientation() { return turn_up_to(6.2831853f); }
     BodyProperties body(uint shape) {
         if (shape == physics::SHAPE_SPHERE) return sphere(between(0.1f, 1.0f));
-        if (shape == physics::SHAPE_CAPSULE) return capsule(between(0.1f, 0.5f), between(0.02f, 1.0f));
-        if (shape == physics::SHAPE_BOX) return box(between(0.2f, 1.0f), between(0.2f, 1.0f), between(0.2f, 1.0f));
+        if (shape == physics::SHAPE_CAPSULE) {
+            const float radius = between(0.1f, 0.5f);
+            return capsule(radius, between(0.02f, 1.0f));
+        }
+        if (shape == physics::SHAPE_BOX) {
+            const vec3 half{between(0.2f, 1.0f), between(0.2f, 1.0f), between(0.2f, 1.0f)};
+            return box(half.x, half.y, half.z);
+        }
         return plane(direction());
     }
 

@@ -22,19 +22,19 @@ float between(Chance& chance, float low, float high) {
 }
 vec4 any_turn(Chance& chance) {
     std::normal_distribution<float> normal;
-    return glm::normalize(vec4(normal(chance), normal(chance), normal(chance), normal(chance)));
+    return glm::normalize(vec4{normal(chance), normal(chance), normal(chance), normal(chance)});
 }
 
 Shape any_shape(std::size_t kind, Chance& chance) {
     if (kind == 0) return Sphere{between(chance, 0.2f, 0.6f)};
     if (kind == 1) return Capsule{between(chance, 0.1f, 0.4f), between(chance, 0.1f, 0.6f)};
-    if (kind == 2) return Box{vec3(between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f))};
+    if (kind == 2) return Box{{between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f)}};
     if (kind == 4) return Cylinder{between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f)};
     if (kind == 5) return Cone{between(chance, 0.3f, 0.6f), between(chance, 0.5f, 1.2f)};
-    if (kind == 7) return Ellipsoid{vec3(between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f))};
+    if (kind == 7) return Ellipsoid{{between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f)}};
     Hull hull;
     for (int k = 0; k < 14; ++k)
-        hull.points.emplace_back(between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f));
+        hull.points.push_back({between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f)});
     return hull;
 }
 
@@ -100,7 +100,7 @@ Pair any_pair(std::size_t kind_a, std::size_t kind_b, Chance& chance) {
     scene.bodies[1].shape = any_shape(kind_b, chance);
     for (Body& body : scene.bodies) body.orientation = any_turn(chance);
     scene = checked(scene);
-    const dvec3 way = glm::normalize(dvec3(between(chance, -1, 1), between(chance, -1, 1), between(chance, -1, 1.01f)));
+    const dvec3 way = glm::normalize(dvec3{between(chance, -1, 1), between(chance, -1, 1), between(chance, -1, 1.01f)});
     // Distance at which the supports along the line of centres leave a gap or overlap.
     const double apart = reach(scene.bodies[0], way) + reach(scene.bodies[1], -way) - between(chance, -0.1f, 0.15f);
     scene.bodies[0].position = vec3(0.3f, -0.2f, 0.1f);

@@ -116,7 +116,7 @@ TEST_CASE("a capsule of no height touches as a sphere does", "[collide]") {
     const BodyProperties point = capsule(0.4f, 0.0f), ball = sphere(0.4f);
     for (int k = 0; k < 200; ++k) {
         const Pose here = Pose{chance.direction(), 0, chance.orientation()};
-        const Pose there = Pose{here.position + chance.direction() * chance.between(0, 1.5f), 0, chance.orientation()};
+        const Pose there = Pose{here.position + chance.point_within(1.5f), 0, chance.orientation()};
         for (const BodyProperties& other :
              {capsule(0.3f, 0.5f), capsule(0.3f, 0.0f), box(0.4f, 0.5f, 0.6f), plane(vec3(0, 0, 1))}) {
             const ManifoldBuffer a = collide(point, here, other, there, margin);

@@ -77,7 +77,10 @@ TEST_CASE("bounds that overlap are found in the cells in reach, two or three alo
         // Up to 80,000 of the finest cells from the origin.
         const float distance = i % 3 == 0 ? 0 : i % 3 == 1 ? 500.0f : 50000.0f;
         const vec3 where = noise.vector() * distance;
-        const auto half = [&] { return (vec3(0.6f) + noise.vector() * 0.4f) * std::exp2(3.0f * noise()); };
+        const auto half = [&] {
+            const vec3 form = vec3(0.6f) + noise.vector() * 0.4f;
+            return form * std::exp2(3.0f * noise());
+        };
         const Extent a = extent_of(where, half(), grid);
         const vec3 other = half();
         // Distances close to the sum of extents, so that some barely touch.

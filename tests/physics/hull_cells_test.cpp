@@ -164,11 +164,13 @@ TEST_CASE("the best of two hulls' faces is the best of all of them, however deep
             const physics::Hulls table = state.hull_table();
             for (int k = 0; k < 1500; ++k) {
                 const auto any_turn = [&] {
-                    return glm::normalize(vec4(any_direction(chance), 0.1f) + vec4(0, 0, 0, between(chance, -1, 1)));
+                    const vec3 axis = any_direction(chance);
+                    return glm::normalize(vec4(axis, 0.1f + between(chance, -1, 1)));
                 };
                 const physics::ConvexShape solids[] = {physics::convex_shape_of(state.properties[0], any_turn(), table),
                                                        physics::convex_shape_of(state.properties[1], any_turn(), table)};
-                const vec3 d = between(chance, 0, 1.5f) * any_direction(chance);
+                const float apart = between(chance, 0, 1.5f);
+                const vec3 d = apart * any_direction(chance);
                 double best = -1e30;
                 for (int side = 0; side < 2; ++side) {
                     const physics::ConvexShape &own = solids[side], &other = solids[1 - side];

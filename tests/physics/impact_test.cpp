@@ -111,7 +111,10 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
     int met = 0, late = 0;
     for (int i = 0; i < 3000; ++i) {
         const BodyProperties &a = kinds[i % 3], &b = kinds[i / 3 % 3];
-        const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
+        const auto some = [&] {
+            const vec3 place = noise.vector();
+            return pose_at(place, unit_quaternion(vec4(noise.vector(), 1.1f)));
+        };
         const Pose starts[2] = {some(), some()}, ends[2] = {some(), some()};
         if (distance_between_shapes(a, starts[0], b, starts[1], 1e30f, Hulls{}).distance < 2 * touch) continue;
         const MotionPath ca = from_to(a, starts[0], ends[0]), cb = from_to(b, starts[1], ends[1]);
@@ -140,7 +143,10 @@ TEST_CASE("what was stopped is not stopped at the same place in the next step") 
     for (int i = 0; i < 3000; ++i) {
         const bool falls = i % 2 == 1;
         const BodyProperties &a = kinds[i % 3], &b = falls ? ground : kinds[i / 3 % 3];
-        const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
+        const auto some = [&] {
+            const vec3 place = noise.vector();
+            return pose_at(place, unit_quaternion(vec4(noise.vector(), 1.1f)));
+        };
         const auto above = [&](Pose pose) { return pose_at(pose.position + vec3(0, falls ? 2 : 0, 0), pose.orientation); };
         const MotionPath ca = from_to(a, above(some()), some());
         const MotionPath cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, some(), some());

@@ -54,7 +54,7 @@ vec3 unit_vector(tests::Noise& noise) {
     }
 }
 vec4 any_turn(tests::Noise& noise) {
-    const vec4 q(noise(), noise(), noise(), noise() + 1.1f);
+    const vec4 q{noise(), noise(), noise(), noise() + 1.1f};
     return vec4(glm::normalize(glm::dvec4(q)));
 }
 

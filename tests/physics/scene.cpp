@@ -89,9 +89,9 @@ TEST_CASE("scene: turns and normals are made unit, and checking twice changes no
     Scene scene;
     for (int i = 0; i < 1000; ++i) {
         Body body;
-        body.orientation = vec4(normal(random), normal(random), normal(random), normal(random)) * 3.0f;
+        body.orientation = vec4{normal(random), normal(random), normal(random), normal(random)} * 3.0f;
         body.motion = Motion::fixed;
-        body.shape = Plane{vec3(normal(random), normal(random), normal(random)), 1};
+        body.shape = Plane{{normal(random), normal(random), normal(random)}, 1};
         scene.bodies.push_back(body);
     }
     const Scene once = checked(scene), twice = checked(once);

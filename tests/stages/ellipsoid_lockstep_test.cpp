@@ -23,7 +23,7 @@ TEST_CASE(
             scene.bodies[0].shape = ground;
         }
         Hull hull;
-        for (int k = 0; k < 20; ++k) hull.points.emplace_back(any(-0.4f, 0.4f), any(-0.4f, 0.4f), any(-0.4f, 0.4f));
+        for (int k = 0; k < 20; ++k) hull.points.push_back({any(-0.4f, 0.4f), any(-0.4f, 0.4f), any(-0.4f, 0.4f)});
         for (int k = 0; k < 90; ++k) {
             const Ellipsoid stone{{any(0.1f, 0.4f), any(0.1f, 0.4f), any(0.1f, 0.4f)}};
             const Shape shapes[] = {stone,

@@ -40,7 +40,7 @@ Scene rain_on_hills() {
                             .position = {0, 0.5f, 0},
                             .angular_velocity = {0, 2, 0}});
     Hull hull;
-    for (int k = 0; k < 14; ++k) hull.points.emplace_back(any(-0.3f, 0.3f), any(-0.3f, 0.3f), any(-0.3f, 0.3f));
+    for (int k = 0; k < 14; ++k) hull.points.push_back({any(-0.3f, 0.3f), any(-0.3f, 0.3f), any(-0.3f, 0.3f)});
     for (int k = 0; k < 56; ++k) {
         const Shape shapes[] = {hammer(), Sphere{0.2f},          Box{vec3(0.2f)}, Capsule{0.12f, 0.2f},
                                 hull,     Cylinder{0.2f, 0.15f}, Cone{0.2f, 0.4f}};

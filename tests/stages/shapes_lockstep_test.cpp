@@ -21,7 +21,7 @@ TEST_CASE("every stage gives the same bits on both processors for cylinders, con
     scene.bodies[0].shape = Plane{};
     std::vector<Hull> hulls(3);
     for (Hull& hull : hulls)
-        for (int k = 0; k < 20; ++k) hull.points.emplace_back(any(-0.4f, 0.4f), any(-0.4f, 0.4f), any(-0.4f, 0.4f));
+        for (int k = 0; k < 20; ++k) hull.points.push_back({any(-0.4f, 0.4f), any(-0.4f, 0.4f), any(-0.4f, 0.4f)});
     for (int k = 0; k < 90; ++k) {
         const Shape shapes[] = {Cylinder{0.3f, any(0.1f, 0.4f)},
                                 Cone{0.3f, any(0.4f, 0.8f)},
@@ -50,7 +50,7 @@ TEST_CASE("hulls that touch in thousands of ways come out alike on both processo
     for (const int corners : {6, 8, 12, 32}) {
         Hull hull;
         for (int k = 0; k < corners; ++k) {
-            const vec3 way(any(-1, 1), any(-1, 1), any(-1, 1));
+            const vec3 way{any(-1, 1), any(-1, 1), any(-1, 1)};
             hull.points.push_back(0.5f * glm::normalize(way));
         }
         Scene scene;
@@ -61,7 +61,8 @@ TEST_CASE("hulls that touch in thousands of ways come out alike on both processo
             first.shape = second.shape = hull;
             first.position = 3.0f * vec3(k % 13, k / 13 % 13, k / 169);
             first.orientation = any_turn();
-            second.position = first.position + any(0.4f, 0.95f) * glm::normalize(vec3(any(-1, 1), any(-1, 1), any(0.1f, 1)));
+            const float apart = any(0.4f, 0.95f);
+            second.position = first.position + apart * glm::normalize(vec3{any(-1, 1), any(-1, 1), any(0.1f, 1)});
             second.orientation = any_turn();
             scene.bodies.push_back(first);
             scene.bodies.push_back(second);

@@ -64,7 +64,8 @@ Scene scene_of(const Blow& blow, tests::Noise& noise) {
     heavy.density = 100 * blow.ratio * 8 * half.x * half.y * half.z / volume;
     const float x = noise(), z = noise();
     heavy.position = {0.15f * blow.size * x, 2 * half.y + (blow.ball ? 1.05f : 1.75f) * reach, 0.15f * blow.size * z};
-    heavy.orientation = glm::normalize(vec4(0.3f * noise(), 0.3f * noise(), 0.3f * noise(), 1));
+    const vec3 lean = noise.vector();
+    heavy.orientation = glm::normalize(vec4(0.3f * lean.z, 0.3f * lean.y, 0.3f * lean.x, 1));
     heavy.velocity = {0, -blow.speed, 0};
     scene.bodies.push_back(heavy);
     for (Body& body : scene.bodies) body.restitution = blow.restitution;
@@ -91,7 +92,8 @@ double greatest_energy(const Blow& blow, std::uint32_t seed) {
 
 // Measured: none of 480 blows gains with restitution 0 and 1 (1.0 and 1.008 times at most), 1 with 0.5 (1.03). Before contacts
 // that meet within a substep waited for the next one to be counted, and what is under a blow did not rebound, one in twelve
-// gained, up to 260 times; before impulses restarted and arrivals counted two substeps ahead 8, 2 and 1, up to 2.1 times.
+// gained, up to 260 times; before impulses restarted and arrivals counted two substeps ahead 8, 2 and 1, up to 2.1 times. Of
+// 7,680 in other places, three gain with restitution 0 (2.4 times at most), one with 0.5 and 115 with 1 (1.9 times).
 TEST_CASE("a heavy body that falls upon a light one on several supports leaves with no more energy than it brought") {
     for (const float restitution : {0.0f, 0.5f, 1.0f}) {
         int gained = 0, blows = 0;

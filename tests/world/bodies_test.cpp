@@ -277,7 +277,7 @@ TEST_CASE("bodies that come and go for ever take bounded memory, and a checkpoin
     const auto churn = [&](World& w, int from, int to) {
         for (int i = from; i < to; ++i) {
             std::vector<Body> born;
-            for (int k = 0; k < 5; ++k) born.push_back(supply(5 * i + k, vec3(noise(), 3 + noise(), noise()) * 2.0f));
+            for (int k = 0; k < 5; ++k) born.push_back(supply(5 * i + k, vec3{noise(), 3 + noise(), noise()} * 2.0f));
             alive.push_back(w.add_bodies(born));
             if (alive.size() > 12) {
                 std::vector<BodyHandle> old;

@@ -111,7 +111,7 @@ Scene gas_in_a_box(int a_side, float speed, unsigned seed) {
     const float apart = 9.0f / static_cast<float>(a_side), first = -0.5f * apart * static_cast<float>(a_side - 1);
     for (int i = 0; i < a_side * a_side * a_side; ++i) {
         const vec3 place(i % a_side, i / a_side % a_side, i / (a_side * a_side));
-        const vec3 direction(normal(random), normal(random), normal(random));
+        const vec3 direction{normal(random), normal(random), normal(random)};
         elastic(Sphere{0.5f}, vec3(first) + apart * place)->velocity = speed * glm::normalize(direction);
     }
     for (int wall = 0; wall < 6; ++wall) {
@@ -207,13 +207,13 @@ namespace {
 vec3 direction(std::mt19937& random) {
     std::normal_distribution<float> normal;
     vec3 v(0);
-    while (glm::length(v) < 0.1f) v = vec3(normal(random), normal(random), normal(random));
+    while (glm::length(v) < 0.1f) v = {normal(random), normal(random), normal(random)};
     return glm::normalize(v);
 }
 
 vec4 orientation(std::mt19937& random) {
     std::normal_distribution<float> normal;
-    return glm::normalize(vec4(normal(random), normal(random), normal(random), normal(random)));
+    return glm::normalize(vec4{normal(random), normal(random), normal(random), normal(random)});
 }
 
 // Inertia tensors and masses by body, from closed forms.

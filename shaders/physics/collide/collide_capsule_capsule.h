@@ -8,7 +8,8 @@ LAWS_BEGIN
 
 // One point between the nearest points of the axes (Ericson, Real-Time Collision Detection, 5.1.9). Two, at the ends of
 // the common interval, for nearly parallel axes that diverge there by less than a tenth of the radii (gap error at most
-// 1/200 of them). Crossing axes separate along their common perpendicular.
+// 1/200 of them; 1/50 where the nearest point of the other axis is its end). Crossing axes separate along their common
+// perpendicular.
 LAW ManifoldBuffer collide_capsule_capsule(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
     vec3 u = upright(pose_a.orientation);
