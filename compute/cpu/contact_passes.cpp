@@ -256,10 +256,11 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     const bool sorted = wide || !state.presence.empty(), blocks = state.features().blocks;
     const bool in_lanes = wide && wide_tables(state, state.contacts_to_solve).warm_starts;
+    const SolverClasses classes(state);
     if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         if (in_lanes && is_solved(state, i)) {
-            state.solver_classes[i] = class_in_lanes(state, i);
+            state.solver_classes[i] = classes.of_warm_started(i);
             return;
         }
         const physics::Contact& contact = state.contacts[i];
@@ -269,7 +270,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const bool leads = blocks && !idle && !follows && shares_block(state, contact) && next_partner(state, i) != physics::NONE;
         if (sorted)
             state.solver_classes[i] =
-                idle ? not_solved : class_to_solve(state, a, b, contact, state.impulses[i].normal_sum > 0, follows || leads);
+                idle ? not_solved : classes.of(a, b, contact, state.impulses[i].normal_sum > 0, follows || leads);
         if (follows) return;  // the first contact of its block prepares it
         physics::Constraint& c = state.constraints[i];
         begin_constraint(state, i);

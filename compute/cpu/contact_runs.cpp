@@ -15,15 +15,23 @@ namespace scree::reference {
 
 namespace {
 
-// Contacts that lanes take together, because they skip the same work: as many points, bearing or not, of round bodies or not.
-// Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
-constexpr std::size_t lane_classes = 16, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
+// Contacts that lanes take together, because they skip the same work: as many points, of round bodies or not, with the same
+// Load. Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
+constexpr std::size_t lane_classes = 24, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
 bool is_of_block(std::uint8_t solver_class) {
     return solver_class % inner_classes == lane_classes;
 }
 
-std::size_t lane_class(bool round, bool bears, std::uint32_t points) {
-    return 4 * (2 * std::size_t{round} + !bears) + (4 - points);
+enum class Load : std::uint8_t { bears, may_bear, apart };
+std::size_t lane_class(bool round, Load load, std::uint32_t points) {
+    return 4 * (3 * std::size_t{round} + static_cast<std::size_t>(load)) + (4 - points);
+}
+// `apart`: the gap beyond which a contact most likely stays unloaded, m.
+Load load_of(const physics::Contact& contact, bool bears, float apart) {
+    if (bears) return Load::bears;
+    float least = contact.points[0].w;
+    for (std::uint32_t k = 1; k < contact.count; ++k) least = std::min(least, contact.points[k].w);
+    return least > apart ? Load::apart : Load::may_bear;
 }
 bool are_round(const State& state, std::uint32_t a, std::uint32_t b) {
     return physics::is_round(state.properties[a]) && physics::is_round(state.properties[b]);
@@ -62,20 +70,25 @@ bool is_solved(const State& state, std::size_t contact) {
     return !physics::is_idle(state.contact_slots[2 * contact], state.contact_slots[2 * contact + 1]);
 }
 
-std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
-                            bool of_block) {
-    return class_among(state, a, b,
-                       of_block ? lane_classes : lane_class(are_round(state, contact.a, contact.b), bears, contact.count));
+SolverClasses::SolverClasses(const State& state)
+    : state_(state), apart_(4 * state.fixed().h * physics::fall_speed(state.fixed())) {}
+
+std::uint8_t SolverClasses::of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
+                               bool of_block) const {
+    if (of_block) return class_among(state_, a, b, lane_classes);
+    return class_among(state_, a, b,
+                       lane_class(are_round(state_, contact.a, contact.b), load_of(contact, bears, apart_), contact.count));
 }
 
-std::uint8_t class_in_lanes(const State& state, std::size_t contact) {
-    const std::uint32_t index = state.contact_pairs[contact], count = state.point_counts[index];
-    const physics::Pair& pair = state.pairs[index];
+std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
+    const physics::Contact& contact = state_.contacts[index];
+    const physics::Pair& pair = state_.pairs[state_.contact_pairs[index]];
     const bool persists = pair.pair_type == physics::PAIR_PERSISTENT;
     // Persistent contacts bore an impulse, and their bodies are not both round (may_persist).
-    const bool bears = persists || (pair.previous != physics::NONE && state.impulses_before[pair.previous].normal_sum > 0);
-    return class_among(state, state.body_of(pair.a), state.body_of(pair.b),
-                       lane_class(!persists && are_round(state, pair.a, pair.b), bears, count));
+    const bool bears = persists || (pair.previous != physics::NONE && state_.impulses_before[pair.previous].normal_sum > 0);
+    return class_among(
+        state_, state_.body_of(pair.a), state_.body_of(pair.b),
+        lane_class(!persists && are_round(state_, pair.a, pair.b), load_of(contact, bears, apart_), contact.count));
 }
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {
@@ -124,6 +137,7 @@ std::size_t groups_of(std::size_t contacts, std::size_t lanes) {
 void make_room_for_groups(State& state, std::size_t lanes) {
     const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.solver_runs.size();
     const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
+    if (state.unloaded_groups.size() < groups) state.unloaded_groups.resize(groups + groups / 16);
     if (state.lane_contacts.size() >= lines) return;
     state.lane_contacts = {};  // freed first; nothing in it lasts from step to step
     state.lane_contacts.resize(lines + lines / 16);
@@ -147,6 +161,7 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
         WideTables own = tables;
         own.items += run.first;
         own.groups += (run.first / lanes + k) * lanes * words_of_contact;
+        own.unloaded += run.first / lanes + k;
         if (!state.gravities.empty()) own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
         const std::size_t begin = begun_before(run, state.passed_first()), end = begun_before(run, state.passed_last());
         share_out(end - begin, [&](std::size_t first, std::size_t last) {

@@ -15,11 +15,19 @@ constexpr std::uint8_t not_solved = 0xFF;
 // Whether the contact has a movable body.
 bool is_solved(const State& state, std::size_t contact);
 
-// The class (State::solver_classes) of a contact of bodies a and b, by which contacts to solve are sorted.
-std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
-                            bool of_block);
-// Of a contact that lanes warm-start. The impulse that it will bear is not known yet: that of the last step decides.
-std::uint8_t class_in_lanes(const State& state, std::size_t contact);
+// Classes (State::solver_classes) by which contacts to solve are sorted.
+class SolverClasses {
+public:
+    explicit SolverClasses(const State& state);
+    // Of a contact of the bodies a and b.
+    std::uint8_t of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears, bool of_block) const;
+    // Of one that lanes warm-start. The impulse that it will bear is not known yet: that of the last step decides.
+    std::uint8_t of_warm_started(std::size_t contact) const;
+
+private:
+    const State& state_;
+    float apart_;  // m: what falls closes less in two substeps, so that a contact with a wider gap most likely stays unloaded
+};
 
 // Sorts contacts_to_solve by class and finds its runs.
 void sort_contacts_to_solve(State& state, const Threads& threads);

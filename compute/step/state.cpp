@@ -307,8 +307,8 @@ std::size_t State::bytes() const {
 std::size_t State::bytes_of_loops() const {
     const auto sum = [](const auto&... lists) { return (std::size_t{0} + ... + (lists.size() * sizeof lists[0])); };
     return sum(pair_manifolds, partners, entry_cells, partners_before, row_kinds, movable_bodies, driven_bodies, movable,
-               fast_pairs, paces, solver_classes, lane_contacts, lane_bodies, near_rows.boxes, near_rows.firsts, near_rows.ends,
-               near_rows.others, near_rows.places, near_rows.entries);
+               fast_pairs, paces, solver_classes, lane_contacts, unloaded_groups, lane_bodies, near_rows.boxes, near_rows.firsts,
+               near_rows.ends, near_rows.others, near_rows.places, near_rows.entries);
 }
 
 std::size_t State::bytes_on_host() const {

@@ -109,26 +109,63 @@ TEST_CASE("bodies in several contacts with another leave the same bits one by on
     }
 }
 
+namespace {
+
+// Requires that steps whose stages nobody looks at leave the bits of the plain loops; look(state) comes after each.
+template <typename Look>
+void compare_unwatched(const Scene& scene, int threads, int lanes, const Look& look) {
+    CAPTURE(threads, lanes);
+    Settings settings;
+    settings.sleep_time = 0.2f;
+    Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
+    for (int step = 0; step < 150; ++step) {
+        CAPTURE(step);
+        plain.step_unwatched();
+        wide.step_unwatched();
+        for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::first_contacts,
+                                  Table::contacts, Table::impulses, Table::counts}) {
+            const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+            CAPTURE(info.name);
+            const Compared whole{table, info.length};
+            REQUIRE(std::ranges::equal(live_bytes(plain.state, whole), live_bytes(wide.state, whole)));
+        }
+        look(wide.state);
+    }
+}
+
+// Bodies on a plane in a square with gaps of a centimetre, and one that strikes them half a second later.
+Scene row_about_to_be_struck(const Shape& shape, float restitution, float rolling_resistance) {
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
+    for (int i = 0; i < 64; ++i) {
+        Body body;
+        body.shape = shape;
+        body.position = {0.61f * static_cast<float>(i % 8), 0.3f, 0.61f * static_cast<float>(i / 8)};
+        scene.bodies.push_back(body);
+    }
+    Body striker;
+    striker.shape = Sphere{0.3f};
+    striker.position = {-4.5f, 0.35f, 1.3f};
+    striker.velocity = {8, 0, 0.5f};
+    striker.density = 4000;
+    scene.bodies.push_back(striker);
+    for (Body& body : scene.bodies) {
+        body.restitution = restitution;
+        body.rolling_resistance = rolling_resistance;
+    }
+    return scene;
+}
+
+}  // namespace
+
 // Between stages that nobody looks at, lanes leave out what later stages do not read.
 TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops") {
     const auto runs = [](const Scene& scene, int threads, int lanes) {
-        CAPTURE(threads, lanes);
-        Settings settings;
-        settings.sleep_time = 0.2f;
-        Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
-        for (int step = 0; step < 150; ++step) {
-            CAPTURE(step);
-            plain.step_unwatched();
-            wide.step_unwatched();
-            for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::first_contacts,
-                                      Table::contacts, Table::impulses, Table::counts}) {
-                const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-                CAPTURE(info.name);
-                const Compared whole{table, info.length};
-                REQUIRE(std::ranges::equal(live_bytes(plain.state, whole), live_bytes(wide.state, whole)));
-            }
-        }
-        return std::ranges::count(wide.state.properties, physics::MOTION_BROKEN, &physics::BodyProperties::motion);
+        std::ptrdiff_t broken = 0;
+        compare_unwatched(scene, threads, lanes, [&](const State& state) {
+            broken = std::ranges::count(state.properties, physics::MOTION_BROKEN, &physics::BodyProperties::motion);
+        });
+        return broken;
     };
     for (const int lanes : {4, 8, 16}) {
         runs(tests::heap(100), 1, lanes);
@@ -140,6 +177,21 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
         REQUIRE(runs(tests::brittle_heap(60), 1, lanes) > 5);
         runs(tests::what_has_feet(7), 1, lanes);
     }
+}
+
+TEST_CASE("contacts that bear nothing leave the bits of the plain loops while they wait and when a blow loads them") {
+    for (const int lanes : {4, 8, 16})
+        for (const float restitution : {0.0f, 0.6f})
+            for (const Shape& shape : {Shape(Box{vec3(0.3f)}), Shape(Sphere{0.3f})})
+                for (const float rolling_resistance : {0.0f, 0.02f}) {
+                    CAPTURE(restitution, shape.index(), rolling_resistance);
+                    std::vector<std::ptrdiff_t> unloaded;  // groups, after each step
+                    compare_unwatched(
+                        row_about_to_be_struck(shape, restitution, rolling_resistance), 2, lanes,
+                        [&](const State& state) { unloaded.push_back(std::ranges::count(state.unloaded_groups, 1)); });
+                    CHECK(unloaded[20] >= 112 / lanes);
+                    CHECK(*std::ranges::min_element(unloaded) < unloaded[20]);
+                }
 }
 
 TEST_CASE("several contacts at once leave the right bits whatever their number is") {

@@ -72,6 +72,14 @@ SCREE_INLINE void to_slots(const WideTables& tables, Bool live, const Constraint
     scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
 }
 
+// The tables of impulses and impacts from what is kept.
+template <bool plain>
+SCREE_INLINE void give_back(const WideTables& tables, const Kept& group, std::size_t first, std::size_t last) {
+    const Indices contacts = Indices(listed(tables.items, first, last)).only(living(first, last));
+    scatter(tables.impulses, contacts, contact_impulse_of(group.impulse));
+    if (!plain && tables.impacts != nullptr) scatter(tables.impacts, contacts, contact_impact_of(group.impulse));
+}
+
 // A group of contacts, one per lane, with solver data and bodies.
 template <bool plain>
 struct Group {
@@ -123,12 +131,6 @@ struct Group {
         kept_.impulse.slide_distance = after.slide_distance;
         kept_.impulse.center_offset = after.center_offset;
         kept_.impulse.normal_sum = after.normal_sum;
-    }
-    // The tables of impulses and impacts from what is kept.
-    SCREE_INLINE void give_back(const WideTables& tables, std::size_t first, std::size_t last) const {
-        const Indices contacts = Indices(listed(tables.items, first, last)).only(live);
-        scatter(tables.impulses, contacts, contact_impulse_of(kept_.impulse));
-        if (!plain && tables.impacts != nullptr) scatter(tables.impacts, contacts, contact_impact_of(kept_.impulse));
     }
 };
 

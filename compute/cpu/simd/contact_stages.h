@@ -2,7 +2,7 @@
 // For compute/cpu/simd/simd_stages.cpp.
 #pragma once
 
-#include "compute/cpu/simd/contact_group.h"
+#include "compute/cpu/simd/unloaded_group.h"
 
 LAWS_BEGIN
 
@@ -101,8 +101,9 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, a), from.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, b), from.impulse, p);
         const Float weight = is_active(c, from.impulse, now, p);
-        const VelocityPair share = to_body_deltas(now, now, ma, mb);
-        to_slots(tables, live, c, warm_start(c, from.impulse, share, ma, mb), weight, from.impulse.normal_sum);
+        const VelocityPair share = warm_start(c, from.impulse, to_body_deltas(now, now, ma, mb), ma, mb);
+        to_slots(tables, live, c, share, weight, from.impulse.normal_sum);
+        tables.unloaded[first / lanes] = is_unloaded(prepared.impulse, share, weight);
     }
 }
 
@@ -137,9 +138,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
         const Float weight = is_active(group.c, group.impulse, group.before, p);
-        const VelocityPair share = to_body_deltas(group.before, group.before, ma, mb);
-        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), weight, group.impulse.normal_sum);
+        const VelocityPair share = warm_start(group.c, group.impulse, to_body_deltas(group.before, group.before, ma, mb), ma, mb);
+        group.hand_out(tables, share, weight, group.impulse.normal_sum);
         if (tables.plain) narrow(prepared.impulse);
+        tables.unloaded[first / lanes] = is_unloaded(prepared.impulse, share, weight);
     }
 }
 
@@ -148,6 +150,9 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
+        std::uint8_t& unloaded = tables.unloaded[first / lanes];
+        if (unloaded != 0 && !tables.watched && solve_unloaded<plain>(tables, first, last)) continue;
+        unloaded = 0;
         const Group<plain> group(tables, first, last);
         prefetch_next<plain>(tables, first, last, group.c);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
@@ -156,7 +161,7 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
             solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.keep_solved(after.impulse);
-        if (tables.watched) group.give_back(tables, first, last);
+        if (tables.watched) give_back<plain>(tables, group.kept_, first, last);
         group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
     }
 }
@@ -201,6 +206,8 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
+        std::uint8_t& unloaded = tables.unloaded[first / lanes];
+        if (unloaded != 0 && !tables.watched && tables.carried == nullptr && relax_unloaded<plain>(tables, first, last)) continue;
         const Group<plain> group(tables, first, last);
         prefetch_next<plain>(tables, first, last, group.c);
         const Impulse& was = group.impulse;
@@ -214,8 +221,9 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, ma, mb, p);
         if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
         group.keep(impulse);
-        if (tables.last || tables.watched) group.give_back(tables, first, last);
+        if (tables.last || tables.watched) give_back<plain>(tables, group.kept_, first, last);
         group.hand_out(tables, share, weight, impulse.normal_sum);
+        unloaded = is_unloaded(impulse, share, weight);
     }
 }
 void relax(const WideTables& tables, std::size_t first, std::size_t last) {

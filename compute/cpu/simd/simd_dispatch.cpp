@@ -52,6 +52,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.slots = words(state.slots);
     tables.impact_debts = state.impact_debts.data();
     tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
+    tables.unloaded = state.unloaded_groups.data();
     tables.body_groups = state.lane_bodies.empty() ? nullptr : state.lane_bodies.front().words;
     tables.prefetches = state.counted().solver_contacts > most_cached_contacts;
     tables.watched = state.is_watched;

@@ -35,6 +35,7 @@ struct WideTables {
     const std::uint32_t* places = nullptr;
     std::uint8_t* marks = nullptr;         // one for each of `items`, of bound and finish
     std::uint32_t* groups = nullptr;       // constraints and impulses of the contacts in `items`, one per lane
+    std::uint8_t* unloaded = nullptr;      // of each group in `groups`: whether it is unloaded and its slots are zero
     std::uint32_t* body_groups = nullptr;  // of the bodies in `items`: words_of_body for each, one body per lane
     bool plain = false;                    // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;                  // tables are read after every stage: impulses not after the last alone, impacts always

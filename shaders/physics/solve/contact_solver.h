@@ -174,6 +174,23 @@ LAW VelocityPair scaled_change(VelocityPair before, VelocityPair after, float of
     return after;
 }
 
+// After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide.
+LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Parameters parameters) {
+    bool follows = is_of_round_bodies(c);
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < point_count(c) && !follows;
+        if (none(there)) break;
+        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
+        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, moved));
+        impulse.separation[k] = choose(there, separation, impulse.separation[k]);
+    }
+    vec3 way = (moved.b.linear - moved.a.linear) * parameters.h;
+    impulse.center_offset = impulse.center_offset + way;
+    impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
+    if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
+    return impulse;
+}
+
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
 // applies restitution and friction. `debt`: part_of_debts(); `part`: part_of_stiffness(); `last`: 1 in the last substep of a
 // step, else 0.
@@ -184,19 +201,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     vec3 met_offset = impulse.center_offset;
     bool follows = is_of_round_bodies(c);
     if (!none(struck || follows)) met = refresh_round_contact(c, met_offset);
-    impulse = stretched(met, impulse, moved, parameters);
-    for (int k = 0; k < 4; ++k) {
-        bool there = uint(k) < point_count(c) && !follows;
-        if (none(there)) break;
-        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, moved));
-        impulse.separation[k] = choose(there, separation, impulse.separation[k]);
-    }
     bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
-    vec3 way = (moved.b.linear - moved.a.linear) * parameters.h;
-    impulse.center_offset = impulse.center_offset + way;
-    impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
-    if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
+    impulse = after_motion(c, stretched(met, impulse, moved, parameters), moved, parameters);
     c = refresh_round_contact(c, impulse.center_offset);
     SolveResult result;
     result.impulse = impulse;
@@ -314,6 +320,36 @@ LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPai
     bool blow = is_blow(normal_impulse(biased), larger(a.inverse_mass, b.inverse_mass), parameters);
     bool struck = is_impact(biased), at_once = larger(a.split, b.split) > IMPACTS_AT_ONCE;
     return choose((struck && at_once) || (!struck && blow), 1.0f, is_active(c, relaxed, v, parameters));
+}
+
+// A contact is unloaded if all impulses that it has are zero. Such a one changes nothing in a pass but what after_motion() does,
+// and has no share in the bodies' masses, unless it becomes loaded in that pass. These two tell whether it may, in doubt that it
+// does; with velocities that are sound (motion.h), they alone decide.
+LAW bool may_load_biased(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
+    c = refresh_round_contact(c, impulse.center_offset);
+    bool open = !(impulse.slide_distance > c.slide_limit), loads = false;
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < point_count(c);
+        if (none(there)) break;
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
+        float separation = impulse.separation[k];
+        bool waits = separation > 0.0f && speed + separation * parameters.inverse_h >= 0.0f;
+        loads = loads || (there && open && !waits);
+    }
+    return loads;
+}
+// In the relax pass, after the motion: or counts for the next substep.
+LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
+    c = refresh_round_contact(c, impulse.center_offset);
+    bool loads = false;
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < point_count(c);
+        if (none(there)) break;
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
+        float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
+        loads = loads || (there && !(speed + target >= 0.0f));
+    }
+    return loads || is_active(c, impulse, v, parameters) != 0.0f;
 }
 
 // Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is

@@ -1,0 +1,147 @@
+// Unloaded contacts (contact_solver.h): what SIMD lanes leave out of a pass changes nothing.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+using namespace scree::physics;
+
+namespace {
+
+Parameters parameters_of(bool weight) {
+    Parameters p{};
+    p.h = 1.0f / 480;
+    p.dt = 1.0f / 60;
+    p.inverse_h = 480;
+    p.gravity = vec3(0, weight ? -9.81f : 0.0f, 0);
+    p.bias_rate = 30;
+    p.mass_scale = 0.9f;
+    p.impulse_scale = 0.1f;
+    p.push_speed = 3;
+    p.inverse_relaxation = 1 / 1.5f;
+    p.restitution_threshold = 0.1f;
+    p.max_spin = 100;
+    return p;
+}
+
+struct Meeting {
+    Constraint c;
+    Impulse impulse;
+    VelocityPair v;
+    Mass a, b;
+};
+Meeting random_meeting(tests::Noise& noise) {
+    Meeting made;
+    const auto one_in = [&](int n) { return noise() > 1 - 2.0f / static_cast<float>(n); };
+    const vec3 offset = noise.vector() + vec3(0, 2, 0);
+    Contact contact{};
+    contact.count = static_cast<uint>(2.5f + 1.9f * noise());
+    contact.normal = unit3(noise.vector(), vec3(0, 1, 0));
+    contact.center_offset = offset;
+    made.c = idle_constraint(contact);
+    made.c.friction = 0.5f + 0.5f * noise();
+    made.c.restitution = one_in(3) ? 0.5f + 0.5f * noise() : 0.0f;
+    made.c.rolling_resistance = one_in(3) ? 0.05f : 0.0f;
+    made.c.twist_arm = one_in(2) ? 0.2f : 0.0f;
+    made.c.slide_limit = one_in(8) ? 0.0f : 0.3f;
+    if (one_in(2)) made.c.flags |= CONSTRAINT_ON_B;
+    for (int k = 0; k < 4; ++k) made.c = with_lever_arm(made.c, k, noise.vector());
+    made.c.centre = noise.vector();
+    if (contact.count == 1 && one_in(2)) {
+        made.c.flags = 1 | CONSTRAINT_ROUND;
+        made.c.radius_a = made.c.radius_b = 0.3f;
+        made.c.arms_x.x = made.c.arms_y.x = made.c.arms_z.x = 0;
+        made.c.centre = contact.normal * (0.6f + 0.01f * noise()) - offset;
+    }
+    made.impulse = no_impulse(offset);
+    made.impulse.separation = vec4(0.01f) + 0.01f * vec4{noise(), noise(), noise(), noise()};
+    made.impulse.slide_distance = 0.1f + 0.1f * noise();
+    const float speed = one_in(2) ? 0.01f : 5.0f;
+    made.v.a.linear = speed * noise.vector();
+    made.v.a.angular = speed * noise.vector();
+    made.v.b.linear = speed * noise.vector();
+    made.v.b.angular = speed * noise.vector();
+    for (Mass* mass : {&made.a, &made.b}) {
+        *mass = {};
+        if (mass == &made.a && one_in(4)) continue;  // a body that does not move
+        mass->inverse_mass = 1.1f + noise();
+        mass->xx = mass->yy = mass->zz = 5.1f + 5 * noise();
+    }
+    made.a.split = 2 + noise();
+    made.b.split = 2 + noise();
+    return made;
+}
+
+template <class Record>
+bool same_bits(const Record& a, const Record& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+bool same_bits(const VelocityPair& a, const VelocityPair& b) {
+    return a.a.linear == b.a.linear && a.a.angular == b.a.angular && a.b.linear == b.b.linear && a.b.angular == b.b.angular;
+}
+bool is_zero(const VelocityPair& share) {
+    VelocityPair zero{};
+    zero.a.linear = zero.a.angular = zero.b.linear = zero.b.angular = vec3(0);
+    return same_bits(share.a.linear, zero.a.linear) && same_bits(share.a.angular, zero.a.angular) &&
+           same_bits(share.b.linear, zero.b.linear) && same_bits(share.b.angular, zero.b.angular);
+}
+
+}  // namespace
+
+TEST_CASE("an unloaded contact that nothing may load changes nothing in the biased pass", "[unloaded]") {
+    tests::Noise noise(5);
+    int kept = 0, loaded = 0, doubted = 0;
+    for (int i = 0; i < 40000; ++i) {
+        const Parameters p = parameters_of(i % 4 != 0);
+        const Meeting m = random_meeting(noise);
+        const SolveResult after = solve_contact(m.c, m.impulse, m.v, m.a, m.b, vec4(0), 1, p);
+        const bool stays = same_bits(after.impulse, m.impulse) && same_bits(after.pair_velocity, m.v);
+        if (may_load_biased(m.c, m.impulse, m.v, p)) {
+            ++(stays ? doubted : loaded);
+            continue;
+        }
+        INFO("contact " << i);
+        REQUIRE(stays);
+        REQUIRE(is_zero(to_body_deltas(m.v, after.pair_velocity, m.a, m.b)));
+        REQUIRE(after.impulse.impact_weight == 0);
+        REQUIRE(impact_debt(after.impulse) == 0);
+        ++kept;
+    }
+    CAPTURE(kept, loaded, doubted);
+    CHECK(kept > 10000);
+    CHECK(loaded > 5000);
+    CHECK(doubted < 4000);  // those that are gone or penetrate
+}
+
+TEST_CASE("an unloaded contact that nothing may load changes in the relax pass by the motion alone", "[unloaded]") {
+    tests::Noise noise(6);
+    int kept = 0, loaded = 0, doubted = 0;
+    for (int i = 0; i < 40000; ++i) {
+        const Parameters p = parameters_of(i % 4 != 0);
+        const Meeting m = random_meeting(noise);
+        const float last = i % 8 == 0 ? 1 : 0;
+        const SolveResult after = relax_contact(m.c, m.impulse, m.v, m.v, m.a, m.b, vec4(0), 0, 1, last, p);
+        Impulse impulse = clear_impacts(after.impulse, point_count(m.c));
+        impulse.normal_sum = normal_impulse(impulse);
+        const Impulse moved = after_motion(m.c, m.impulse, m.v, p);
+        const float weight = counts_next(m.c, m.impulse, impulse, after.pair_velocity, m.a, m.b, p);
+        const bool stays = same_bits(impulse, moved) && same_bits(after.pair_velocity, m.v) && weight == 0;
+        if (may_load_relaxed(m.c, moved, m.v, p)) {
+            ++(stays ? doubted : loaded);
+            continue;
+        }
+        INFO("contact " << i);
+        REQUIRE(stays);
+        const VelocityPair share = to_body_deltas(m.v, after.pair_velocity, m.a, m.b);
+        REQUIRE(is_zero(warm_start(m.c, impulse, share, m.a, m.b)));
+        ++kept;
+    }
+    CAPTURE(kept, loaded, doubted);
+    CHECK(kept > 10000);
+    CHECK(loaded > 5000);
+    CHECK(doubted < 4000);
+}
