@@ -16,22 +16,22 @@ namespace scree::reference {
 namespace {
 
 // Contacts that lanes take together, because they skip the same work: as many points, of round bodies or not, with the same
-// Load. Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
+// Bearing. Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
 constexpr std::size_t lane_classes = 24, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
 bool is_of_block(std::uint8_t solver_class) {
     return solver_class % inner_classes == lane_classes;
 }
 
-enum class Load : std::uint8_t { bears, may_bear, apart };
-std::size_t lane_class(bool round, Load load, std::uint32_t points) {
-    return 4 * (3 * std::size_t{round} + static_cast<std::size_t>(load)) + (4 - points);
+enum class Bearing : std::uint8_t { bears, near, apart };
+std::size_t lane_class(bool round, Bearing bearing, std::uint32_t points) {
+    return 4 * (3 * std::size_t{round} + static_cast<std::size_t>(bearing)) + (4 - points);
 }
 // `apart`: the gap beyond which a contact most likely stays unloaded, m.
-Load load_of(const physics::Contact& contact, bool bears, float apart) {
-    if (bears) return Load::bears;
+Bearing bearing_of(const physics::Contact& contact, bool bears, float apart) {
+    if (bears) return Bearing::bears;
     float least = contact.points[0].w;
     for (std::uint32_t k = 1; k < contact.count; ++k) least = std::min(least, contact.points[k].w);
-    return least > apart ? Load::apart : Load::may_bear;
+    return least > apart ? Bearing::apart : Bearing::near;
 }
 bool are_round(const State& state, std::uint32_t a, std::uint32_t b) {
     return physics::is_round(state.properties[a]) && physics::is_round(state.properties[b]);
@@ -77,7 +77,7 @@ std::uint8_t SolverClasses::of(std::uint32_t a, std::uint32_t b, const physics::
                                bool of_block) const {
     if (of_block) return class_among(state_, a, b, lane_classes);
     return class_among(state_, a, b,
-                       lane_class(are_round(state_, contact.a, contact.b), load_of(contact, bears, apart_), contact.count));
+                       lane_class(are_round(state_, contact.a, contact.b), bearing_of(contact, bears, apart_), contact.count));
 }
 
 std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
@@ -88,7 +88,7 @@ std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
     const bool bears = persists || (pair.previous != physics::NONE && state_.impulses_before[pair.previous].normal_sum > 0);
     return class_among(
         state_, state_.body_of(pair.a), state_.body_of(pair.b),
-        lane_class(!persists && are_round(state_, pair.a, pair.b), load_of(contact, bears, apart_), contact.count));
+        lane_class(!persists && are_round(state_, pair.a, pair.b), bearing_of(contact, bears, apart_), contact.count));
 }
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {

@@ -26,7 +26,7 @@ public:
 
 private:
     const State& state_;
-    float apart_;  // m: what falls closes less in two substeps, so that a contact with a wider gap most likely stays unloaded
+    float apart_;  // m: more than what falls from rest closes in two substeps; contacts with a wider gap mostly stay unloaded
 };
 
 // Sorts contacts_to_solve by class and finds its runs.

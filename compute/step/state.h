@@ -405,7 +405,7 @@ struct State {
         std::uint32_t words[16];
     };
     std::vector<CacheLine> lane_contacts;
-    std::vector<std::uint8_t> unloaded_groups;  // likewise, of each group of lanes: 1 if no contact bears anything
+    std::vector<std::uint8_t> unloaded_groups;  // likewise, of each group: 1 if it is unloaded and its slots are zero
     std::vector<CacheLine> lane_bodies;  // likewise, of movable_bodies: what begin and move read of them and does not change
     bool is_watched = false;             // tables are read after every stage
 

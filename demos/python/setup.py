@@ -32,8 +32,8 @@ class CMakeBuild(build_ext):
 
     def configure(self, build: Path) -> None:
         command = [
-            "cmake", "-S", str(TOP), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DSCREE_PREFERS_CLANG=ON", "-DSCREE_PYTHON=ON", "-DSCREE_TESTS=OFF",
-            "-DSCREE_WINDOW=OFF", "-DSCREE_PROGRAM=ON", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=6",
+            "cmake", "-S", str(TOP), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DSCREE_PREFERS_CLANG=ON",
+            "-DSCREE_PYTHON=ON", "-DSCREE_TESTS=OFF", "-DSCREE_WINDOW=OFF", "-DSCREE_PROGRAM=ON", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=6",
             f"-DSCREE_PYTHON_EXECUTABLE={sys.executable}"]
         if shutil.which("ninja"):
             command += ["-G", "Ninja"]

@@ -148,8 +148,9 @@ TEST_CASE("what was stopped is not stopped at the same place in the next step") 
             return pose_at(place, unit_quaternion(vec4(noise.vector(), 1.1f)));
         };
         const auto above = [&](Pose pose) { return pose_at(pose.position + vec3(0, falls ? 2 : 0, 0), pose.orientation); };
-        const MotionPath ca = from_to(a, above(some()), some());
-        const MotionPath cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, some(), some());
+        const Pose a_from = above(some()), a_to = some(), b_from = some(), b_to = some();
+        const MotionPath ca = from_to(a, a_from, a_to);
+        const MotionPath cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, b_from, b_to);
         const float first = meet(a, ca, b, cb).fraction;
         if (first >= 1) continue;
         ++met;

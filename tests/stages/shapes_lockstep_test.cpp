@@ -46,7 +46,7 @@ TEST_CASE("hulls that touch in thousands of ways come out alike on both processo
     const auto device = host::Device::open({.which = "", .validation = false, .on_message = {}});
     std::mt19937 chance(8);
     const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
-    const auto any_turn = [&] { return vec4(any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)); };
+    const auto any_turn = [&] { return vec4{any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)}; };
     for (const int corners : {6, 8, 12, 32}) {
         Hull hull;
         for (int k = 0; k < corners; ++k) {

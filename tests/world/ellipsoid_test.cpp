@@ -147,8 +147,8 @@ TEST_CASE("a pile of ellipsoids, alone and as parts of compounds, comes to rest 
     for (std::size_t k = 0; k < 4; ++k) scene.bodies[k + 1].shape = Plane{walls[k], -1.1f};
     for (int k = 0; k < 60; ++k) {
         const Ellipsoid stone{{any(0.2f, 0.4f), any(0.15f, 0.3f), any(0.2f, 0.35f)}};
-        Body body = body_of(stone, {any(-0.6f, 0.6f), 0.5f + 0.3f * static_cast<float>(k), any(-0.6f, 0.6f)},
-                            {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)});
+        const vec3 place{any(-0.6f, 0.6f), 0.5f + 0.3f * static_cast<float>(k), any(-0.6f, 0.6f)};
+        Body body = body_of(stone, place, {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)});
         if (k % 5 == 0) body.shape = Compound{{{stone, {-0.2f, 0, 0}}, {Ellipsoid{{0.2f, 0.2f, 0.15f}}, {0.25f, 0.1f, 0}}}};
         body.rolling_resistance = 0.01f;
         scene.bodies.push_back(body);

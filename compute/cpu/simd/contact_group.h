@@ -72,6 +72,12 @@ SCREE_INLINE void to_slots(const WideTables& tables, Bool live, const Constraint
     scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
 }
 
+// What the motion of a substep changes (after_motion).
+SCREE_INLINE void keep_motion(Kept& group, const Impulse& after) {
+    group.impulse.separation = after.separation;
+    group.impulse.slide_distance = after.slide_distance;
+    group.impulse.center_offset = after.center_offset;
+}
 // The tables of impulses and impacts from what is kept.
 template <bool plain>
 SCREE_INLINE void give_back(const WideTables& tables, const Kept& group, std::size_t first, std::size_t last) {
@@ -83,7 +89,7 @@ SCREE_INLINE void give_back(const WideTables& tables, const Kept& group, std::si
 // A group of contacts, one per lane, with solver data and bodies.
 template <bool plain>
 struct Group {
-    Kept& kept_;
+    Kept& record;
     Bool live;  // false in lanes beyond the end
     Constraint c;
     Impulse impulse;
@@ -91,10 +97,10 @@ struct Group {
     VelocityPair before;
 
     SCREE_INLINE Group(const WideTables& tables, std::size_t first, std::size_t last)
-        : kept_(kept(tables, first)),
+        : record(kept(tables, first)),
           live(living(first, last)),
-          c(narrowed<plain>(kept_.c)),
-          impulse(narrowed<plain>(kept_.impulse)),
+          c(narrowed<plain>(record.c)),
+          impulse(narrowed<plain>(record.impulse)),
           a(c.a),
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
@@ -111,26 +117,24 @@ struct Group {
     }
     // What the biased pass changes, and what both do: fields that stay are not written.
     SCREE_INLINE void keep_solved(const Impulse& after) const {
-        kept_.impulse.normal = after.normal;
-        kept_.impulse.friction = after.friction;
-        kept_.impulse.twist = after.twist;
-        kept_.impulse.rolling = after.rolling;
-        kept_.impulse.stretch = after.stretch;
-        kept_.impulse.turn = after.turn;
+        record.impulse.normal = after.normal;
+        record.impulse.friction = after.friction;
+        record.impulse.twist = after.twist;
+        record.impulse.rolling = after.rolling;
+        record.impulse.stretch = after.stretch;
+        record.impulse.turn = after.turn;
         if (plain) return;
-        kept_.impulse.impact = after.impact;
-        kept_.impulse.rebound_energy = after.rebound_energy;
-        kept_.impulse.impact_energy = after.impact_energy;
-        kept_.impulse.impact_weight = after.impact_weight;
-        kept_.impulse.flight_energy = after.flight_energy;
+        record.impulse.impact = after.impact;
+        record.impulse.rebound_energy = after.rebound_energy;
+        record.impulse.impact_energy = after.impact_energy;
+        record.impulse.impact_weight = after.impact_weight;
+        record.impulse.flight_energy = after.flight_energy;
     }
     SCREE_INLINE void keep(const Impulse& after) const {
         keep_solved(after);
-        kept_.impulse.solved_normal = after.solved_normal;
-        kept_.impulse.separation = after.separation;
-        kept_.impulse.slide_distance = after.slide_distance;
-        kept_.impulse.center_offset = after.center_offset;
-        kept_.impulse.normal_sum = after.normal_sum;
+        keep_motion(record, after);
+        record.impulse.solved_normal = after.solved_normal;
+        record.impulse.normal_sum = after.normal_sum;
     }
 };
 

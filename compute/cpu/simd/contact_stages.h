@@ -161,7 +161,7 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
             solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.keep_solved(after.impulse);
-        if (tables.watched) give_back<plain>(tables, group.kept_, first, last);
+        if (tables.watched) give_back<plain>(tables, group.record, first, last);
         group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
     }
 }
@@ -221,7 +221,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, ma, mb, p);
         if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
         group.keep(impulse);
-        if (tables.last || tables.watched) give_back<plain>(tables, group.kept_, first, last);
+        if (tables.last || tables.watched) give_back<plain>(tables, group.record, first, last);
         group.hand_out(tables, share, weight, impulse.normal_sum);
         unloaded = is_unloaded(impulse, share, weight);
     }

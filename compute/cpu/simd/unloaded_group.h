@@ -56,9 +56,7 @@ template <bool plain>
     const VelocityPair v = velocities_of(tables, group.c);
     const Impulse after = after_motion(group.c, group.impulse, v, p);
     if (!none(!are_sound(v) || may_load_relaxed(group.c, after, v, p))) return false;
-    group.impulse.separation = after.separation;
-    group.impulse.slide_distance = after.slide_distance;
-    group.impulse.center_offset = after.center_offset;
+    keep_motion(group, after);
     if (tables.last) give_back<plain>(tables, group, first, last);
     return true;
 }

@@ -286,6 +286,16 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
     return choose(acts, after, v);
 }
 
+// The separation, m, below which a point counts, and whether a point comes that near within the next substep; `speed`: of the
+// separation, m/s.
+LAW float counted_separation(Parameters parameters) {
+    return 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
+}
+LAW bool comes_near(Constraint c, float separation, float speed, float near, Parameters parameters) {
+    bool arrives = speed < -ARRIVAL * fall_speed(parameters) && !(c.restitution > 0.0f);
+    float ahead = choose(arrives, 2.0f * parameters.h, parameters.h);
+    return separation + ahead * speed < near;
+}
 // Whether the contact counts in mass splitting, 1 or 0: a point bears a normal impulse, or will within the next
 // substep, gravity included. What arrives without restitution counts two substeps ahead: in the last substep of a step it acts
 // before it meets (arrival_speed()), and uncounted each of several supports would answer with the whole mass.
@@ -293,16 +303,14 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     bool carrying = false;
     bool open = !(impulse.slide_distance > c.slide_limit);
     c = refresh_round_contact(c, impulse.center_offset);
-    float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
+    float near = counted_separation(parameters);
     for (int k = 0; k < 4; ++k) {
         open = open && uint(k) < point_count(c);
         carrying = carrying || (open && impulse.normal[k] > 0.0f);
         open = open && !carrying;
         if (none(open)) break;
         float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
-        bool arrives = speed < -ARRIVAL * fall_speed(parameters) && !(c.restitution > 0.0f);
-        float ahead = choose(arrives, 2.0f * parameters.h, parameters.h);
-        carrying = carrying || (open && impulse.separation[k] + ahead * speed < fall);
+        carrying = carrying || (open && comes_near(c, impulse.separation[k], speed, near, parameters));
         open = open && !carrying;
     }
     return choose(carrying, 1.0f, 0.0f);
@@ -322,9 +330,9 @@ LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPai
     return choose((struck && at_once) || (!struck && blow), 1.0f, is_active(c, relaxed, v, parameters));
 }
 
-// A contact is unloaded if all impulses that it has are zero. Such a one changes nothing in a pass but what after_motion() does,
-// and has no share in the bodies' masses, unless it becomes loaded in that pass. These two tell whether it may, in doubt that it
-// does; with velocities that are sound (motion.h), they alone decide.
+// A contact is unloaded if all its impulses are zero. A pass changes nothing of such a contact but what after_motion() does, and
+// gives it no share in the bodies' masses, unless the contact becomes loaded in that pass, or counts for the next. These two tell
+// whether it may; in doubt that it may. They decide alone where velocities are sound (motion.h) and parameters in their ranges.
 LAW bool may_load_biased(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool open = !(impulse.slide_distance > c.slide_limit), loads = false;
@@ -338,18 +346,22 @@ LAW bool may_load_biased(Constraint c, Impulse impulse, VelocityPair v, Paramete
     }
     return loads;
 }
-// In the relax pass, after the motion: or counts for the next substep.
+// In the relax pass, after the motion.
 LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
-    bool loads = false;
+    float near = counted_separation(parameters);
+    bool open = !(impulse.slide_distance > c.slide_limit), loads = false;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
         float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
-        float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-        loads = loads || (there && !(speed + target >= 0.0f));
+        float separation = impulse.separation[k];
+        float target = choose(separation > 0.0f, separation * parameters.inverse_h, 0.0f);
+        bool counts = open && comes_near(c, separation, speed, near, parameters);
+        // What closes the gap comes near as well, but for rounding and contacts that end.
+        loads = loads || (there && (counts || !(speed + target >= 0.0f)));
     }
-    return loads || is_active(c, impulse, v, parameters) != 0.0f;
+    return loads;
 }
 
 // Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is
