@@ -66,7 +66,7 @@ LAW float impact_work(Constraint c, vec4 impact, vec3 center_offset, VelocityPai
     float work = 0.0f;
     for (int k = 0; k < 4; ++k) {
         if (uint(k) < point_count(c) && impact[k] > 0.0f) {
-            float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), center_offset), now));
+            float speed = normal_speed(c, lever_arm(c, k), center_offset, now);
             work = work + 0.5f * (impact[k] * speed);
         }
     }

@@ -91,7 +91,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     // A single sweep would leave what falls flat without restitution with a spin.
     bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f;
     if (!none(arrives)) {
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, c.centre, impulse.center_offset), v));
+        float speed = normal_speed(c, c.centre, impulse.center_offset, v);
         arrives = arrives && speed < -ARRIVAL * fall_speed(parameters);
     }
     vec4 normal_before = impulse.normal;
@@ -180,8 +180,8 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c) && !follows;
         if (none(there)) break;
-        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, moved));
+        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, moved);
+        float separation = impulse.separation[k] + parameters.h * speed;
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
     vec3 way = (moved.b.linear - moved.a.linear) * parameters.h;
@@ -309,7 +309,7 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
         carrying = carrying || (open && impulse.normal[k] > 0.0f);
         open = open && !carrying;
         if (none(open)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
+        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
         carrying = carrying || (open && comes_near(c, impulse.separation[k], speed, near, parameters));
         open = open && !carrying;
     }
@@ -339,7 +339,7 @@ LAW bool may_load_biased(Constraint c, Impulse impulse, VelocityPair v, Paramete
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
+        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
         float separation = impulse.separation[k];
         bool waits = separation > 0.0f && speed + separation * parameters.inverse_h >= 0.0f;
         loads = loads || (there && open && !waits);
@@ -354,7 +354,7 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
+        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
         float separation = impulse.separation[k];
         float target = choose(separation > 0.0f, separation * parameters.inverse_h, 0.0f);
         bool counts = open && comes_near(c, separation, speed, near, parameters);

@@ -44,6 +44,10 @@ LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
 LAW vec3 velocity_at(LeverArms r, VelocityPair v) {
     return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
 }
+// The same along the normal; `arm`: on the anchor body.
+LAW float normal_speed(Constraint c, vec3 arm, vec3 d, VelocityPair v) {
+    return dot3(c.normal, velocity_at(lever_arms(c, arm, d), v));
+}
 
 // A row of the contact Jacobian, with M^-1 J^T. Effective mass and velocity changes come from the same, present lever
 // arms: masses from the start of the step would give a body that flies past another more than it can take.

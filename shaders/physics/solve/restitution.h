@@ -100,7 +100,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     for (int k = 0; k < 4; ++k) {
         bool struck = uint(k) < point_count(c) && impulse.impact[k] > 0.0f;
         if (none(struck)) continue;
-        float reached = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v)) - gain;
+        float reached = normal_speed(c, lever_arm(c, k), impulse.center_offset, v) - gain;
         work = choose(struck, work + 0.5f * (impulse.impact[k] * reached), work);
     }
     float before = impulse.rebound_energy;
@@ -242,8 +242,7 @@ LAW ImpactMode impact_mode(Constraint c, Impulse impulse, VelocityPair v, Mass a
     for (int k = 0; k < 4; ++k) {
         bool struck = mode.share[k] > 0.0f;
         if (none(struck)) continue;
-        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float speed = dot3(c.normal, velocity_at(r, response));
+        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, response);
         mode.inverse_effective_mass =
             choose(struck, mode.inverse_effective_mass + mode.share[k] * speed, mode.inverse_effective_mass);
     }
@@ -309,7 +308,7 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
         if (none(struck)) continue;
-        float speed = dot3(met.normal, velocity_at(lever_arms(met, lever_arm(met, k), offset), reached));
+        float speed = normal_speed(met, lever_arm(met, k), offset, reached);
         pressed = choose(struck, pressed + impulse.normal[k], pressed);
         work = choose(struck, work + 0.5f * (impulse.normal[k] * speed), work);
     }

@@ -28,7 +28,7 @@ LAW float unrest_after(float before, Constraint c, vec3 center_offset, VelocityP
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), center_offset), v));
+        float speed = normal_speed(c, lever_arm(c, k), center_offset, v);
         fastest = choose(there, larger(fastest, abs(speed)), fastest);
     }
     float calmer = positive(before - CALMING * parameters.dt), longer = before + parameters.dt;
