@@ -6,9 +6,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -47,7 +50,31 @@ private:
     std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> idle_;
 };
 
+int lanes_of_processor() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw"))
+        return 16;
+    if (__builtin_cpu_supports("avx2")) return 8;
+#endif
+    return 4;
+}
+
+int lanes_allowed() {
+    const char* const text = std::getenv("SCREE_LANES");
+    if (!text) return Threads::most_lanes;
+    for (const int lanes : {16, 8, 4, 1})
+        if (text == std::to_string(lanes)) return lanes;
+    throw std::invalid_argument(std::string("environment variable SCREE_LANES: \"") + text +
+                                "\" is no number of SIMD lanes; known: 16, 8, 4, 1");
+}
+
 }  // namespace
+
+int widest_lanes() {
+    static const int lanes = std::min(lanes_of_processor(), lanes_allowed());
+    return lanes;
+}
 
 struct Threads::Arena {
     explicit Arena(int threads)
@@ -67,7 +94,8 @@ struct Threads::Arena {
 };
 
 Threads::Threads(int count, int lanes)
-    : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))), lanes_(lanes) {
+    : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      lanes_(std::min(lanes, widest_lanes())) {
     if (count_ > 1) arena_ = std::make_unique<Arena>(count_);
 }
 Threads::~Threads() = default;

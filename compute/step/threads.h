@@ -13,11 +13,15 @@ namespace scree {
 
 class Timeline;
 
+// SIMD lanes of the widest loops here: 16 with AVX-512, 8 with AVX2, else 4; fewer where the environment variable SCREE_LANES
+// says so (16, 8, 4, or 1 for none). Throws std::invalid_argument for any other value of it.
+int widest_lanes();
+
 class Threads {
 public:
     static constexpr int most_lanes = 16;
     static constexpr std::size_t grain = 64;              // least items per task
-    explicit Threads(int count, int lanes = most_lanes);  // 0: one per core
+    explicit Threads(int count, int lanes = most_lanes);  // 0: one per core; at most widest_lanes()
     ~Threads();
     int count() const { return count_; }
     // Greatest number of SIMD lanes that a loop may use.

@@ -14,6 +14,7 @@
 #include "demos/program/output_check.h"
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"
+#include "host/processor.h"
 
 namespace scree::demos {
 
@@ -65,10 +66,11 @@ void print(const BenchCommandOptions& options, const std::vector<Measurement>& a
     const Measurement& first = all.front();
     const std::string settled = options.bench.settle > 0 ? fmt::format(" {:g} s of settling and", options.bench.settle) : "";
     fmt::print(
-        "on {} ({}): medians and quartiles of {} steps, in turn whole and stage by stage, after{} {} more; copying moves {:.1f} "
+        "on {} ({}; {}): medians and quartiles of {} steps, in turn whole and stage by stage, after{} {} more; copying moves "
+        "{:.1f} "
         "GB/s\n\n{}\n",
-        first.backend, first.device, options.bench.steps, settled, options.bench.warmup, first.copy_speed / 1e9,
-        table(overview(all)));
+        first.backend, first.device, host::processor(), options.bench.steps, settled, options.bench.warmup,
+        first.copy_speed / 1e9, table(overview(all)));
     for (const Measurement& m : all) fmt::print("{}, {} bodies\n{}\n", m.name, m.statistics.bodies, table(stage_rows(m)));
     if (!options.machine.pipelines) return print_spread(all);
     for (const Measurement& m : all) {

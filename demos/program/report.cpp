@@ -12,9 +12,11 @@
 #include <numeric>
 
 #include "compute/fields/settings.h"
+#include "compute/step/threads.h"
 #include "demos/program/commit.h"
 #include "demos/program/progress.h"
 #include "demos/program/table.h"
+#include "host/processor.h"
 
 namespace scree::demos {
 
@@ -120,6 +122,8 @@ std::string json_of(const RunReport& r) {
         {"backend", r.backend},
         {"device", r.device},
         {"driver", r.driver},
+        {"processor", host::processor()},
+        {"lanes", widest_lanes()},
         {"arithmetic_fault", r.arithmetic_fault.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(r.arithmetic_fault)},
         {"canvas", r.canvas},
         {"bodies", s.bodies},

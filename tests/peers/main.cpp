@@ -10,6 +10,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "demos/program/table.h"
 #include "host/files/file.h"
+#include "host/processor.h"
 #include "tests/peers/bins.h"
 #include "tests/peers/quality.h"
 #include "tests/peers/race.h"
@@ -25,8 +26,8 @@ void append(Rows& rows, const Rows& more) {
 }
 
 Rows raced(const std::string& name, const Scene& scene, const peers::Field& field, const peers::Course& course) {
-    fmt::print("{}: {} bodies, steps of 1/60 s, nothing sleeps; medians and means of {} turns of {} steps", name,
-               scene.bodies.size(), course.rounds, course.steps);
+    fmt::print("{}: {} bodies, steps of 1/60 s, nothing sleeps, on {}; medians and means of {} turns of {} steps", name,
+               scene.bodies.size(), host::processor(), course.rounds, course.steps);
     if (course.warmup + course.settle == 0) {
         fmt::print(" from the scene's first\n");
     } else {

@@ -175,7 +175,7 @@ TEST_CASE("programs of the race are chosen by their keys, and all steps from the
     const Scene scene = checked(demos::build(*demos::find_demo("stack"), {}).scene);
     const std::vector<Lap> laps = race(scene, entrants(scene, {.substeps = 4, .programs = {"scree1"}}), Course::from_start(2, 3));
     REQUIRE(laps.size() == 1);
-    CHECK(laps[0].name == "scree cpu, 1 thread, 4 substeps");
+    CHECK(laps[0].name == "scree cpu, " + make_reference_runner(1)->device() + ", 4 substeps");
     CHECK(laps[0].ms.size() == 6);
     CHECK(quartiles_of({1, 2, 3, 10}).mean == 4);
 }

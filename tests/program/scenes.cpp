@@ -179,6 +179,8 @@ TEST_CASE("program: a report has every key, and says the same on every run", "[p
     for (const char* key : {"demo",
                             "backend",
                             "device",
+                            "processor",
+                            "lanes",
                             "bodies",
                             "steps",
                             "dt",

@@ -24,9 +24,20 @@ def resident():
         return int(file.read().split()[1]) * 4096
 
 
+def looping():
+    total = 0
+    for i in range(100000):
+        total += i
+    return total
+
+
 class Speed(unittest.TestCase):
+    """Limits are parts of what this processor takes for 100,000 turns of a loop."""
+
     @classmethod
     def setUpClass(cls):
+        cls.loop = best(looping)
+        print(f"100,000 turns of a loop: {cls.loop:.2f} ms")
         scene = scree.Scene(gravity=(0, 0, 0))
         grid = np.arange(10000)
         place = np.stack([grid % 22 * 2.0, grid // 22 % 22 * 2.0, grid // 484 * 2.0], 1)
@@ -34,18 +45,18 @@ class Speed(unittest.TestCase):
         cls.world = scree.World(scene, backend="cpu")
         cls.world.step(2)
 
-    def test_setting_ten_thousand_bodies_takes_less_than_5_ms(self):
+    def test_setting_ten_thousand_bodies_takes_less_than_two_and_a_half_loops(self):
         position, velocity = self.world.position, self.world.velocity
         took = best(lambda: self.world.set(self.ids, position=position, velocity=velocity))
         print(f"set of 10,000 positions and velocities: {took:.2f} ms")
-        self.assertLess(took, 5)
+        self.assertLess(took, 2.5 * self.loop)
 
-    def test_reading_ten_thousand_positions_takes_less_than_1_ms(self):
+    def test_reading_ten_thousand_positions_takes_less_than_half_a_loop(self):
         took = best(lambda: self.world.position)
         print(f"read of 10,000 positions: {took:.3f} ms")
-        self.assertLess(took, 1)
+        self.assertLess(took, self.loop / 2)
 
-    def test_a_step_costs_at_most_20_us_more_than_in_the_library(self):
+    def test_a_step_costs_little_more_than_in_the_library(self):
         scene = scree.Scene()
         scene.add(scree.Sphere(), gravity_scale=0.0)
         world = scree.World(scene, backend="cpu", threads=1, sleeping=False)
@@ -58,7 +69,7 @@ class Speed(unittest.TestCase):
         world.step(steps)
         inside, outside = best(lambda: world.step(steps)), best(one_by_one)
         print(f"a step: {1e3 * inside / steps:.2f} us in the library, {1e3 * (outside - inside) / steps:.2f} us more from Python")
-        self.assertLess(1e3 * (outside - inside) / steps, 20)
+        self.assertLess((outside - inside) / steps, self.loop / 100)
 
 
 class Memory(unittest.TestCase):

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "tests/world/feet.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
+#include "tests/world/lanes.h"
 
 using namespace scree;
 
@@ -93,7 +95,7 @@ std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
 }  // namespace
 
 TEST_CASE("several contacts at once leave the bits that each of them alone leaves, in every stage") {
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : tests::lanes_here()) {
         CAPTURE(lanes);
         REQUIRE(compare(tests::heap(60), 1, lanes, 150) > 60);
         compare(tests::swarm(40, 0.8f), 1, lanes, 90);
@@ -103,7 +105,7 @@ TEST_CASE("several contacts at once leave the bits that each of them alone leave
 }
 
 TEST_CASE("bodies in several contacts with another leave the same bits one by one and beside lanes") {
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : tests::lanes_here()) {
         CAPTURE(lanes);
         REQUIRE(compare(tests::what_has_feet(7), 1, lanes, 60) > 64);
         compare(tests::what_has_feet(7), 2, lanes, 20);
@@ -174,7 +176,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
         });
         return broken;
     };
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : tests::lanes_here()) {
         runs(tests::heap(100), 1, lanes);
         runs(tests::heap(100), 2, lanes);
         runs(tests::swarm(40, 0.8f), 1, lanes);
@@ -187,7 +189,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
 }
 
 TEST_CASE("contacts that bear nothing leave the bits of the plain loops while they wait and when a blow loads them") {
-    for (const int lanes : {4, 8, 16})
+    for (const int lanes : tests::lanes_here())
         for (const float restitution : {0.0f, 0.6f})
             for (const Shape& shape : {Shape(Box{vec3(0.3f)}), Shape(Sphere{0.3f})})
                 for (const float rolling_resistance : {0.0f, 0.02f}) {
@@ -208,7 +210,7 @@ TEST_CASE("contacts that bear nothing leave the bits of the plain loops while th
 // Velocities that are not finite, or beyond what is sound, appear between two stages of a step that keeps its tables unread.
 TEST_CASE("contacts that bear nothing leave the bits of the plain loops where velocities become infinite") {
     const Scene scene = row_about_to_be_struck(Box{vec3(0.3f)}, 0, 0);
-    for (const int lanes : {4, 8, 16})
+    for (const int lanes : tests::lanes_here())
         for (const float poison : {INFINITY, -INFINITY, NAN, 3.0e38f, 2.0e15f})
             for (const std::string stage : {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}) {
                 CAPTURE(lanes, poison, stage);
@@ -233,7 +235,7 @@ TEST_CASE("contacts that bear nothing leave the bits of the plain loops where ve
 }
 
 TEST_CASE("several contacts at once leave the right bits whatever their number is") {
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : tests::lanes_here()) {
         for (const int bodies : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33}) {
             CAPTURE(lanes, bodies);
             REQUIRE(compare(tests::apart(bodies), 1, lanes, 4) == static_cast<std::uint32_t>(bodies));
@@ -243,7 +245,7 @@ TEST_CASE("several contacts at once leave the right bits whatever their number i
 }
 
 TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever their kind, broken or entangled") {
-    for (const int lanes : {4, 8}) {
+    for (const int lanes : tests::lanes_here({4, 8})) {
         CAPTURE(lanes);
         compare(tests::all_kinds(), 1, lanes, 60);
         compare(tests::spokes(), 2, lanes, 10);
@@ -254,7 +256,7 @@ TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever th
 TEST_CASE("blocks of equal structure solved in lanes leave the bits of single ones, however many and whatever their joints do") {
     const bool many = std::getenv("SCREE_PROGRAMS") != nullptr;
     for (std::uint32_t seed = 1; seed <= (many ? 200u : 8u); ++seed)
-        for (const int lanes : {4, 8, 16}) {
+        for (const int lanes : tests::lanes_here()) {
             CAPTURE(seed, lanes);
             compare(tests::mechanisms(seed), static_cast<int>(1 + seed % 2), lanes, 40);
         }
@@ -266,7 +268,7 @@ TEST_CASE("a mechanism that becomes infinite leaves the equal ones beside it as 
         if (step == 3 && stage == "solve_contacts")
             state.velocities[state.vehicles[4].dynamics.chassis].linear = {3e38f, -3e38f, 3e38f};
     };
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : tests::lanes_here()) {
         CAPTURE(lanes);
         compare(scene, 1, lanes, 8, spoil);
     }
@@ -281,7 +283,7 @@ TEST_CASE("cars that brake and let go leave the same bits one by one and in lane
             dynamics.throttle = step % 40 < 20 && dynamics.brake == 0 ? 0.5f : 0;
         }
     };
-    for (const int lanes : {4, 16}) {
+    for (const int lanes : tests::lanes_here({4, 16})) {
         CAPTURE(lanes);
         compare(tests::traffic(11), 1, lanes, 100, drive);
     }
@@ -314,12 +316,27 @@ TEST_CASE("mechanisms whose joints come and go and are restored leave the same b
     }
 }
 
-TEST_CASE("one contact at a time is done where that is asked for") {
-    REQUIRE(reference::wide_stages(1) == nullptr);
-    REQUIRE(reference::wide_joint_stages(1) == nullptr);
-    REQUIRE(reference::wide_block_stages(16, 1) == nullptr);
-    REQUIRE(reference::wide_block_stages(1, 16) == nullptr);
-    REQUIRE(reference::wide_block_stages(16, 4) == &reference::wide_block_stages_4);
-    REQUIRE(reference::wide_joint_stages(4) == &reference::wide_joint_stages_baseline);
-    REQUIRE(reference::wide_stages(4) == &reference::wide_stages_4);
+// tests/run prints this before it runs the tests.
+TEST_CASE("the numbers of SIMD lanes that run here are told") {
+    std::string here, lacking;
+    for (const int lanes : {4, 8, 16}) (lanes <= widest_lanes() ? here : lacking) += ' ' + std::to_string(lanes);
+    std::printf("SIMD lanes that run here:%s; that do not:%s\n", here.empty() ? " none" : here.c_str(),
+                lacking.empty() ? " none" : lacking.c_str());
+    CHECK(std::ranges::count(std::vector{1, 4, 8, 16}, widest_lanes()) == 1);
+}
+
+TEST_CASE("one contact at a time is done where that is asked for, and as many as run here otherwise") {
+    CHECK(reference::wide_stages(1) == nullptr);
+    CHECK(reference::wide_joint_stages(1) == nullptr);
+    CHECK(reference::wide_block_stages(16, 1) == nullptr);
+    CHECK(reference::wide_block_stages(1, 16) == nullptr);
+    CHECK(Threads(1).lanes() == widest_lanes());
+    CHECK(Threads(1, 1).lanes() == 1);
+    for (const int lanes : tests::lanes_here()) {
+        REQUIRE(reference::wide_stages(lanes) != nullptr);
+        CHECK(reference::wide_stages(lanes)->lanes == lanes);
+        REQUIRE(reference::wide_block_stages(16, lanes) != nullptr);
+        CHECK(reference::wide_block_stages(16, lanes)->lanes == static_cast<std::size_t>(lanes));
+        CHECK(reference::wide_joint_stages(lanes) != nullptr);
+    }
 }

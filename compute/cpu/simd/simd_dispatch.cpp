@@ -1,9 +1,12 @@
 // Selects the widest SIMD stages of this processor, and views a state's tables as words.
 #include "compute/cpu/simd/simd_stages.h"
 
+#include <algorithm>
+
 #include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/step/state.h"
+#include "compute/step/threads.h"
 
 namespace scree::reference {
 
@@ -12,15 +15,10 @@ namespace {
 constexpr std::uint32_t most_cached_contacts = 6000;  // take 1.7 MB as groups
 constexpr std::size_t least_blocks = 2;               // one is solved faster by itself
 
-// Lanes that this processor has, at most `most`.
+// Lanes of the widest stages with at most `most`; 1: none.
 int widest(int most) {
-#if defined(__x86_64__)
-    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        return 16;
-    if (most >= 8 && __builtin_cpu_supports("avx2")) return 8;
-#endif
-    return most >= 4 ? 4 : 1;
+    const int lanes = std::min(most, widest_lanes());
+    return lanes >= 16 ? 16 : lanes >= 8 ? 8 : lanes >= 4 ? 4 : 1;
 }
 
 }  // namespace
@@ -84,9 +82,9 @@ const WideBlockStages* wide_block_stages(std::size_t blocks, int most) {
 
 const WideJointStages* wide_joint_stages(int most) {
 #if defined(__x86_64__)
-    if (most >= 8 && __builtin_cpu_supports("avx2")) return &wide_joint_stages_avx2;
+    if (widest(most) >= 8) return &wide_joint_stages_avx2;
 #endif
-    return most >= 4 ? &wide_joint_stages_baseline : nullptr;
+    return widest(most) >= 4 ? &wide_joint_stages_baseline : nullptr;
 }
 
 }  // namespace scree::reference

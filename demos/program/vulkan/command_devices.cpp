@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 
 #include "compute/device/arithmetic_check.h"
+#include "compute/step/threads.h"
 #include "demos/program/commands.h"
 #include "demos/program/table.h"
+#include "host/processor.h"
 #include "host/vulkan/device.h"
 
 namespace scree::demos {
@@ -60,7 +62,7 @@ void add_devices(CLI::App& program, int&) {
             if (device.lacks.empty() && !device.has_graphics)
                 notes += fmt::format("device {} computes only; its pictures are drawn with OpenGL ES\n", device.index);
         }
-        fmt::print("{}{}", table(rows), notes);
+        fmt::print("processor: {}, up to {} SIMD lanes\n\n{}{}", host::processor(), widest_lanes(), table(rows), notes);
     });
 }
 
