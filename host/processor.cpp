@@ -17,7 +17,7 @@ std::string processor() {
         break;
     }
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    return name + ", " + std::to_string(cores) + (cores == 1 ? " core" : " cores");
+    return name + " (" + std::to_string(cores) + (cores == 1 ? " core)" : " cores)");
 }
 
 }  // namespace scree::host

@@ -5,7 +5,7 @@
 
 namespace scree::host {
 
-// Its maker's name, "unknown" where the system has none, and the number of cores: "AMD EPYC 9B14, 2 cores".
+// Its maker's name, "unknown" where the system has none, and the number of cores: "AMD EPYC 9B14 (2 cores)".
 std::string processor();
 
 }  // namespace scree::host

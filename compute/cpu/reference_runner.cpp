@@ -8,7 +8,7 @@
 namespace scree {
 
 std::string ReferenceRunner::device() const {
-    return std::to_string(threads_.count()) + (threads_.count() == 1 ? " thread, " : " threads, ") +
+    return std::to_string(threads_.count()) + (threads_.count() == 1 ? " thread of " : " threads of ") +
            std::to_string(threads_.lanes()) + (threads_.lanes() == 1 ? " lane" : " lanes");
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("the race gives every engine its row, and each keeps a settled pile ly
     const std::vector<Lap> laps = race(scene, entrants(scene, {}), {.warmup = 5, .settle = 0, .rounds = 2, .steps = 5});
     const std::string table = table_of(laps);
     INFO(table);
-    std::vector<std::string> names = {"Bullet 3", "scree cpu, 2 threads", "scree cpu, 1 thread", "scree vulkan", "MuJoCo"};
+    std::vector<std::string> names = {"Bullet 3", "scree cpu, 2 threads of", "scree cpu, 1 thread of", "scree vulkan", "MuJoCo"};
 #ifdef SCREE_PEER_BOX3D
     names.emplace_back("Box3D 0");
 #endif
