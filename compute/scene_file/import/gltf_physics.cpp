@@ -31,6 +31,12 @@ dmat3 axes_of(const glm::dmat4& matrix) {
     return axes;
 }
 
+// Of morph targets, which those of 0 do not move.
+void note_weights(GltfValue value) {
+    for (const nlohmann::json& weight : value.at("weights").json())
+        if (weight != 0) return value.note("weights", "are left out; the mesh collides undeformed");
+}
+
 class Gltf {
 public:
     Gltf(Folder& folder, const ImportOptions& options, Notes& notes, std::size_t most_bodies)
@@ -151,16 +157,15 @@ void Gltf::collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& in
     into.groups.push_back(into.triangles.size());
     into.vertices.insert(into.vertices.end(), one.vertices.begin(), one.vertices.end());
     for (const glm::uvec3& triangle : one.triangles) into.triangles.push_back(triangle + base);
-    GltfValue described = mesh_list_->at(mesh);
-    if (described.has("weights")) described.note("weights", "are left out; the mesh collides undeformed");
+    note_weights(mesh_list_->at(mesh));
 }
 
 // The meshes of a node and of those below it; a node below with a motion of its own is another body.
 void Gltf::collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into, int depth) {
     if (depth > 100) node.refuse("the nodes are nested deeper than 100, or in a circle");
     if (++visits_ > most_visits) node.refuse("with it colliders have more than 1000000 nodes");
-    for (const char* deforms : {"skin", "weights"})
-        if (node.has(deforms) && node.has("mesh")) node.note(deforms, "is left out; the mesh collides undeformed");
+    if (node.has("skin")) node.note("skin", "is left out; the mesh collides undeformed");
+    note_weights(node);
     const std::size_t mesh = node.index("mesh", meshes().size(), none_given);
     if (mesh != none_given) collect(mesh, frame, into);
     const GltfValue children = node.at("children");

@@ -298,8 +298,10 @@ void Urdf::finish_base() {
     base.free = wanted && !of_world && mass > 0;
     if (base.free) return;
     if (options_.base == ImportedBase::usual && !of_world && mass > 0)
-        notes_.add(base.origin, "",
-                   "is the root and fixed to the world; --base free (base=\"free\") lets it move, --base fixed says the same");
+        notes_.add(
+            base.origin, "",
+            "is the root and fixed to the world; --base free lets it move, --base fixed says the same (in Python base=\"free\", "
+            "\"fixed\")");
     base.shapeless = mass > 0 && !shown;
 }
 
