@@ -1,4 +1,5 @@
 // MJCF: masses against closed forms, poses, joints, motors, filters; what is noted and what is refused.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
@@ -74,6 +75,25 @@ TEST_CASE("imports: masses, centres and inertias of MJCF geoms are those of clos
                  {1, 2, 3.5}, {2, 1, 2.5});
     require_mass(body("<inertial pos='0 0 0' mass='3' fullinertia='1 1.2 1.4 0.1 -0.05 0.02'/>"), 3, {1, 2, 3}, {1, 1.2, 1.4},
                  {0.1, -0.05, 0.02});
+}
+
+TEST_CASE("imports: balanceinertia and boundinertia are about the principal moments, however the body is turned") {
+    Case file;
+    const auto moments = [&](const std::string& compiler, const std::string& diagonal) {
+        const std::string model = "<mujoco><compiler " + compiler + "/><worldbody><body><freejoint/><geom size='0.1'/>" +
+                                  "<inertial pos='0 0 0' mass='3' quat='1 0 0.41421356 0' diaginertia='" + diagonal +
+                                  "'/></body></worldbody></mujoco>";
+        const vec3 found = file.load("a.xml", model, as_in_file).scene.bodies.at(0).inertial->inertia;
+        std::vector<float> all{found.x, found.y, found.z};
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    for (const float moment : moments("balanceinertia='true'", "1 1 5")) CHECK(moment == Approx(7.0 / 3));
+    CHECK(moments("balanceinertia='true'", "1 2 2.5")[0] == Approx(1));
+    const std::vector<float> bounded = moments("boundinertia='1.5'", "1 2 2.5");
+    CHECK(bounded[0] == Approx(1.5));
+    CHECK(bounded[1] == Approx(2));
+    CHECK(bounded[2] == Approx(2.5));
 }
 
 TEST_CASE("imports: a mesh's mass is of what it encloses, an unjointed body is one with its parent") {

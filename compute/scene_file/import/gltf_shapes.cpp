@@ -79,17 +79,20 @@ public:
         sizes_.note("node", "shears the box, which becomes a hull");
     }
 
-    // The image of a ball is an ellipsoid, whose axes are the principal ones of the map and its transpose.
+    // The image of a ball is an ellipsoid; where the map shears, its axes are the principal ones of the map and its transpose.
     void add_ball(const dvec3& centre, double radius) {
         if (!(radius > 0)) return;
-        const dmat3 linear = dmat3(frame_) * radius, square = linear * glm::transpose(linear);
-        dmat3 axes = principal_axes(square);
-        const dmat3 along = glm::transpose(axes) * square * axes;
-        const dvec3 radii = glm::sqrt(dvec3(along[0][0], along[1][1], along[2][2]));
-        const dvec3 at(frame_ * glm::dvec4(centre, 1));
-        if (same_length(radii.x, radii.y) && same_length(radii.y, radii.z))
-            return add(Sphere{static_cast<float>(radii.x)}, {at, {1, 0, 0, 0}});
-        add(Ellipsoid{vec3(radii)}, {at, glm::normalize(glm::quat_cast(axes))});
+        dvec3 radii = radius * scale_of(frame_);
+        dquat turn = placed_of(frame_).turn;
+        if (!keeps_right_angles(frame_)) {
+            const dmat3 square = radius * radius * dmat3(frame_) * glm::transpose(dmat3(frame_)), axes = principal_axes(square);
+            const dmat3 along = glm::transpose(axes) * square * axes;
+            radii = glm::sqrt(dvec3(along[0][0], along[1][1], along[2][2]));
+            turn = glm::normalize(glm::quat_cast(axes));
+        }
+        const bool round = same_length(radii.x, radii.y) && same_length(radii.y, radii.z);
+        const Placed placed{dvec3(frame_ * glm::dvec4(centre, 1)), turn};
+        round ? add(Sphere{static_cast<float>(radii.x)}, placed) : add(Ellipsoid{vec3(radii)}, placed);
     }
 
     // Between two circles about y. Returns whether it is exact.
@@ -103,16 +106,16 @@ public:
             add(Cylinder{static_cast<float>(bottom * across), static_cast<float>(half)}, placed);
             return true;
         }
-        if (round &&
-            std::min(bottom, top) <= like_length * larger) {  // its centre of mass is a quarter of its height above its base
+        if (round && std::min(bottom, top) <= like_length * larger) {
+            // Its centre of mass is a quarter of its height above its base.
             const dquat up = top < bottom ? dquat(1, 0, 0, 0) : dquat(0, 1, 0, 0);
             add(Cone{static_cast<float>(larger * across), static_cast<float>(2 * half)},
                 placed * Placed{up * dvec3(0, -0.5 * half, 0), up});
             return true;
         }
         std::vector<dvec3> points;
-        const double equal_area =
-            std::sqrt(whole_turn / hull_sides / std::sin(whole_turn / hull_sides));  // of polygon and circle
+        // Of polygon and circle.
+        const double equal_area = std::sqrt(whole_turn / hull_sides / std::sin(whole_turn / hull_sides));
         for (int i = 0; i < hull_sides; ++i) {
             const dvec3 out = equal_area * dvec3(std::cos(whole_turn * i / hull_sides), 0, std::sin(whole_turn * i / hull_sides));
             points.push_back(bottom * out + dvec3(0, from, 0));
