@@ -79,6 +79,9 @@ enum class CombineRule {
     minimum,
     multiply,  // a b
     maximum,
+    // The rules of glTF rank average, minimum, maximum, multiply: its minimum and average are these.
+    overriding_minimum,
+    overriding_average,
 };
 constexpr float unset = -1;
 

@@ -11,7 +11,8 @@ inline constexpr auto words<Motion> = std::array{"dynamic", "fixed", "kinematic"
 template <>
 inline constexpr auto words<Role> = std::array{"solid", "sensor", "drawn"};
 template <>
-inline constexpr auto words<CombineRule> = std::array{"usual", "geometric", "average", "minimum", "multiply", "maximum"};
+inline constexpr auto words<CombineRule> =
+    std::array{"usual", "geometric", "average", "minimum", "multiply", "maximum", "overriding_minimum", "overriding_average"};
 template <>
 inline constexpr auto words<Cutting> = std::array{"voronoi", "boxes", "splinters"};
 
@@ -56,7 +57,7 @@ inline constexpr auto material_fields = std::tuple{
           "Velocity of the surface over the body, in the body's frame: a conveyor belt that does not move"),
     field("friction_rule", &Owner::friction_rule,
           "How friction follows from that of both; of two rules the later one counts: usual (geometric), geometric, average, "
-          "minimum, multiply, maximum"),
+          "minimum, multiply, maximum, overriding_minimum, overriding_average"),
     field("restitution_rule", &Owner::restitution_rule, "The same for restitution; usual: maximum")};
 
 template <>

@@ -29,7 +29,7 @@ public:
         const std::string pointer = "/bodies/" + std::to_string(index) + "/shape/mesh/file";
         if (!allow_outside_ && !imports::is_inside(imports::canonical_or_itself(home_ / mesh->file), home_))
             throw SceneError(pointer, "\"" + mesh->file + "\" lies outside of the scene file's folder, " + home_.string() +
-                                          "; move it there, or allow it (--allow-outside)");
+                                          "; move it there, or allow it (--allow-outside, in Python allow_outside=True)");
         try {
             const auto [found, fresh] = files_.try_emplace(mesh->file);
             if (fresh) found->second = host::read_mesh(folder_ / mesh->file);

@@ -279,8 +279,8 @@ private:
 
     void check_surfaces() const {
         for (std::size_t k = 0; k < saved_.surfaces.size(); ++k)
-            require(saved_.surfaces[k].friction_rule <= physics::COMBINE_MAXIMUM &&
-                        saved_.surfaces[k].restitution_rule <= physics::COMBINE_MAXIMUM,
+            require(saved_.surfaces[k].friction_rule <= physics::COMBINE_OVERRIDING_AVERAGE &&
+                        saved_.surfaces[k].restitution_rule <= physics::COMBINE_OVERRIDING_AVERAGE,
                     "surface", k, "combines by a rule that is not known");
     }
 

@@ -152,7 +152,7 @@ void add_options(CLI::App& command, ImportOptions& options) {
         ->group(group);
     command
         .add_flag("--allow-outside", options.allow_outside,
-                  "A scene file (.json) may name meshes outside of its folder, such as ../meshes/bowl.obj.")
+                  "A file may name meshes and other files outside of its folder, such as ../meshes/bowl.obj.")
         ->group("Simulation");
 }
 

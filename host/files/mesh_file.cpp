@@ -1,9 +1,8 @@
-// Triangle mesh files, by tinyobjloader (OBJ) and tinygltf (glTF, GLB).
+// Triangle mesh files by their endings; glTF and GLB by tinygltf.
 #include "host/files/mesh_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,9 +11,6 @@
 #include <utility>
 
 #include "host/files/json_depth.h"
-
-#define TINYOBJLOADER_IMPLEMENTATION
-#include <tiny_obj_loader.h>
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
@@ -47,56 +43,6 @@ std::string one_line(std::string text) {
     return text;
 }
 
-// ---- OBJ
-// Checks vertices in the text, since tinyobjloader reads malformed numbers as 0.
-void check_vertices(std::string_view bytes, const Source& source) {
-    std::size_t line = 1;
-    for (std::size_t begin = 0; begin < bytes.size(); ++line) {
-        const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
-        std::string_view text = bytes.substr(begin, end - begin);
-        begin = end + 1;
-        if (text.size() < 2 || text[0] != 'v' || (text[1] != ' ' && text[1] != '\t')) continue;
-        text.remove_prefix(1);
-        for (int k = 0; k < 3; ++k) {
-            const std::size_t first = text.find_first_not_of(" \t\r+");
-            text.remove_prefix(std::min(first, text.size()));
-            double value = 0;
-            const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error != std::errc() || !std::isfinite(static_cast<float>(value)))
-                source.refuse("line " + std::to_string(line) + ": a vertex needs three finite numbers");
-            text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-        }
-    }
-}
-
-MeshFile from_obj(std::string_view bytes, const Source& source) {
-    check_vertices(bytes, source);
-    tinyobj::ObjReaderConfig config;
-    config.triangulate = true;
-    tinyobj::ObjReader reader;
-    if (!reader.ParseFromString(std::string(bytes), "", config)) source.refuse("not an OBJ file: " + one_line(reader.Error()));
-    MeshFile mesh;
-    const auto& numbers = reader.GetAttrib().vertices;
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-        mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-    for (const tinyobj::shape_t& shape : reader.GetShapes()) {
-        const auto& indices = shape.mesh.indices;
-        if (indices.size() > 2) mesh.groups.push_back(mesh.triangles.size());
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-            glm::uvec3 triangle;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int index = indices[i + k].vertex_index;
-                if (index < 0 || static_cast<std::size_t>(index) >= mesh.vertices.size())
-                    source.refuse("a face of \"" + shape.name + "\" has vertex " + std::to_string(index + 1) + " of " +
-                                  std::to_string(mesh.vertices.size()));
-                triangle[static_cast<int>(k)] = static_cast<std::uint32_t>(index);
-            }
-            mesh.triangles.push_back(triangle);
-        }
-    }
-    return mesh;
-}
-
 // ---- glTF
 // The elements of an accessor in memory.
 struct Elements {
@@ -110,9 +56,7 @@ public:
     Gltf(const tinygltf::Model& model, const Source& source) : model_(model), source_(source) {}
 
     MeshFile triangles() {
-        for (const std::string& extension : model_.extensionsRequired)
-            if (extension.find("compression") != std::string::npos || extension.find("quantization") != std::string::npos)
-                source_.refuse("needs the extension " + extension + ", which packs vertices; write the file without it");
+        refuse_packed();
         const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
         if (static_cast<std::size_t>(scene) < model_.scenes.size()) {
             for (const int node : model_.scenes[static_cast<std::size_t>(scene)].nodes) add_node(node, glm::dmat4(1), 0);
@@ -123,6 +67,7 @@ public:
     }
 
     std::vector<MeshFile> each_mesh() {
+        refuse_packed();
         std::vector<MeshFile> meshes;
         for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
             add_mesh(mesh, glm::dmat4(1));
@@ -132,6 +77,12 @@ public:
     }
 
 private:
+    void refuse_packed() const {
+        for (const std::string& extension : model_.extensionsRequired)
+            if (extension.find("compression") != std::string::npos || extension.find("quantization") != std::string::npos)
+                source_.refuse("needs the extension " + extension + ", which packs vertices; write the file without it");
+    }
+
     Elements elements(int index, int type, const std::string& place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) source_.refuse(place + ": no such accessor");
         const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
@@ -332,7 +283,7 @@ std::string_view json_of_gltf(std::string_view bytes, const std::string& name) {
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
     const Source source{name};
     const std::string ending = ending_of(name);
-    MeshFile mesh = ending == ".obj"   ? from_obj(bytes, source)
+    MeshFile mesh = ending == ".obj"   ? mesh_of_obj(bytes, name)
                     : ending == ".stl" ? mesh_of_stl(bytes, name)
                                        : from_gltf(bytes, ending == ".glb", source, folder);
     if (mesh.triangles.empty()) source.refuse("has no triangles");

@@ -28,6 +28,8 @@ MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::fil
 std::vector<MeshFile> meshes_of_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder = {});
 // The JSON of a .gltf, or of the first chunk of a .glb. Throws FileError if it is nested too deeply for parsers.
 std::string_view json_of_gltf(std::string_view bytes, const std::string& name);
+// The triangles and groups of an OBJ file. Throws FileError with the line.
+MeshFile mesh_of_obj(std::string_view bytes, const std::string& name);
 // The triangles of an STL file, binary or text, with three vertices each. Throws FileError.
 MeshFile mesh_of_stl(std::string_view bytes, const std::string& name);
 

@@ -1,5 +1,6 @@
 // STL files, binary and text.
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,13 @@ namespace {
 
 constexpr std::size_t stl_header = 84;  // 80 bytes of anything, and the number of triangles
 constexpr std::size_t stl_triangle = 50;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    return lower;
+}
 
 // The words of a text file, with their lines.
 class StlWords {
@@ -26,12 +34,13 @@ public:
         skip(end);
         return word;
     }
-    void skip_line() { skip(std::min(text_.find('\n'), text_.size())); }
+    void skip_line() { skip(std::min(text_.find_first_of("\r\n"), text_.size())); }
     std::size_t line() const { return line_; }
 
 private:
     void skip(std::size_t count) {
-        line_ += static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
+        for (std::size_t i = 0; i < count; ++i)  // the end of a line is \n, \r\n or \r
+            if (text_[i] == '\n' || (text_[i] == '\r' && !text_.substr(i).starts_with("\r\n"))) ++line_;
         text_.remove_prefix(count);
     }
     std::string_view text_;
@@ -48,11 +57,21 @@ float stl_number(StlWords& words, const std::string& name) {
     return static_cast<float>(value);
 }
 
+// The header of a binary file may begin with "solid", too, but the number of its triangles has a byte 0.
+bool is_text(std::string_view bytes) {
+    return bytes.substr(0, stl_header).find('\0') == bytes.npos;
+}
+bool begins_with_solid(std::string_view bytes) {
+    if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
+    return in_lower_case(StlWords(bytes.substr(0, 4096)).next()).starts_with("solid");
+}
+
 MeshFile from_stl_text(std::string_view bytes, const std::string& name) {
     MeshFile mesh;
+    if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
     StlWords words(bytes);
     words.next(), words.skip_line();  // solid, and its name
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    for (std::string word = in_lower_case(words.next()); !word.empty(); word = in_lower_case(words.next())) {
         if (word == "vertex") {
             const float x = stl_number(words, name), y = stl_number(words, name), z = stl_number(words, name);
             mesh.vertices.emplace_back(x, y, z);
@@ -65,22 +84,26 @@ MeshFile from_stl_text(std::string_view bytes, const std::string& name) {
             words.skip_line();
         }
     }
+    if (mesh.vertices.size() != 3 * mesh.triangles.size())
+        throw FileError(name + ": line " + std::to_string(words.line()) + ": the file ends within a facet");
     return mesh;
 }
 
 }  // namespace
 
 MeshFile mesh_of_stl(std::string_view bytes, const std::string& name) {
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+        throw FileError(name + ": is UTF-16 text; write it as ASCII or UTF-8");
     std::uint32_t count = 0;
     if (bytes.size() >= stl_header) std::memcpy(&count, bytes.data() + 80, sizeof count);
-    const bool binary = bytes.size() >= stl_header && (bytes.size() - stl_header) / stl_triangle >= count && count > 0 &&
-                        (!bytes.starts_with("solid") || bytes.size() == stl_header + count * stl_triangle);
-    if (!binary) {
-        if (!bytes.starts_with("solid"))
-            throw FileError(name + ": not an STL file, or cut off: it says " + std::to_string(count) + " triangles in " +
-                            std::to_string(bytes.size()) + " bytes");
-        return from_stl_text(bytes, name);
+    const std::size_t whole = stl_header + count * stl_triangle;
+    if (bytes.size() != whole && is_text(bytes)) {
+        if (begins_with_solid(bytes)) return from_stl_text(bytes, name);
+        if (bytes.size() < whole) throw FileError(name + ": not an STL file: its text does not begin with \"solid\"");
     }
+    if (count == 0 || bytes.size() < whole)
+        throw FileError(name + ": not an STL file, or cut off: it says " + std::to_string(count) + " triangles in " +
+                        std::to_string(bytes.size()) + " bytes");
     MeshFile mesh;
     mesh.vertices.reserve(3 * std::size_t{count});
     mesh.triangles.reserve(count);

@@ -1,5 +1,7 @@
 // Mesh files: valid files, and errors with name and place.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 
@@ -109,4 +111,98 @@ TEST_CASE("a glTF file whose nodes share their children is counted, not unfolded
     REQUIRE(host::mesh_of(glb(shared(3, "{\"mesh\": 0}"), {0, 2, 1}), "a.glb").triangles.size() == 8);
     for (const std::string leaf : {"{\"mesh\": 0}", "{}"})
         REQUIRE(says(refusal(glb(shared(60, leaf), {0, 2, 1}), "a.glb"), "a.glb: /nodes/60: with it the scene has more than"));
+}
+
+TEST_CASE("OBJ files of every spelling give the same triangles") {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+        for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+        return text;
+    };
+    const host::MeshFile plain = host::mesh_of(vertices + faces, "a.obj");
+    REQUIRE(plain.triangles.size() == 4);
+    for (const std::string& text :
+         {vertices + "f 1 3 2 # behind a face\nf 1 2 4# at once\n# a comment that ends in \\\nf 1 4 3\nf 2 3 4",
+          replaced(vertices + faces, "\nf 1 2 4", "\nf 1 \\\n 2\\\n\t4"), replaced(vertices + faces, "v 1 0 0", "v \\ \n1 0 0"),
+          "\xEF\xBB\xBF" + vertices + faces, replaced(vertices + faces, "\n", "\r\n"), replaced(vertices + faces, "\n", "\r"),
+          replaced(replaced(vertices + faces, "\n", "\r\n"), "f 1 2 4", "f 1 2 \\\r\n4"), replaced(vertices + faces, " ", "\t"),
+          replaced(vertices + faces, "\n", " \t\n"), "  " + replaced(vertices + faces, "\n", "\n \t"),
+          vertices + "f 1/ 3/ 2/\nf 1// 2// 4//\nf 1/1/ 4/1/ 3/1/\nf 2/1/1 3//1 4/1\n",
+          vertices + "f -4 -2 -3\nf -4 -3 -1\nf -4//-1 -1//-1 -2//-1\nfo 2 3 4\n", faces + vertices,
+          "mtllib a\\b.mtl\ncstype bezier\n" + vertices + "vt 0 0\nvn 0 0 1\nusemtl m\ns off\nl 1 2\n" + faces + "end\n",
+          replaced(vertices, "v 1 0 0", "v +1.0e0 0.0 -0 1.0") + faces, vertices + "f 1 2\n" + faces}) {
+        INFO(text);
+        const host::MeshFile mesh = host::mesh_of(text, "a.obj");
+        CHECK(mesh.vertices == plain.vertices);
+        CHECK(mesh.triangles == plain.triangles);
+    }
+    const std::string groups = vertices + "g one#1\nf 1 3 2\ng one#2\nf 1 2 4\no\nf 1 4 3\n";
+    CHECK(host::mesh_of(groups, "a.obj").groups == std::vector<std::size_t>{0, 1, 2});
+}
+
+TEST_CASE("what is wrong with an OBJ file is refused with its line") {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\n# remark\nv 0 \\\n1 0\n";
+    const auto refused = [&](const std::string& face) { return refusal(vertices + face, "a.obj"); };
+    CHECK(says(refused("f 1 2 4\n"), "a.obj: line 6: a face has vertex 4 of 3"));
+    CHECK(says(refused("\nf 1 2 -4\n"), "line 7: a face has vertex -4 of 3"));
+    CHECK(says(refused("f 1 2 0\n"), "line 6: a face has vertex 0 of 3"));
+    CHECK(says(refused("f 1 2 99999999999\n"), "line 6: a face has vertex 99999999999 of 3"));
+    for (const std::string corner : {"x", "3x", "/1", "3/1/1/1", "3/x", "3.5", "99999999999999999999"})
+        CHECK(says(refused("f 1 2 " + corner + "\n"), "line 6: a face has a corner \"" + corner + "\""));
+    for (const std::string number : {"1,5", "nan", "1e99", "", "1x"})
+        CHECK(says(refused("f 1 2 3\nv 0 0 " + number + "\n"), "line 7: a vertex needs three finite numbers"));
+    CHECK(says(refusal(std::string("\xFF\xFEv\0 \0", 6), "a.obj"), "UTF-16"));
+    CHECK(says(refused(""), "has no triangles"));
+}
+
+namespace {
+
+std::string upper_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+    return text;
+}
+std::string binary_stl(std::string header, std::uint32_t count, std::size_t behind = 0) {
+    header.resize(80, ' ');
+    std::string bytes = header + std::string(reinterpret_cast<const char*>(&count), 4);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float numbers[12] = {0, 0, 0, float(i), 0, 0, 1, 0, 0, 0, 1, 0};
+        bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers).append(2, '\0');
+    }
+    return bytes.append(behind, '\0');
+}
+
+}  // namespace
+
+TEST_CASE("STL files of every spelling give their triangles") {
+    const std::string facet =
+        "  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n      vertex 0 1e0 +0\n"
+        "    endloop\n  endfacet\n";
+    const std::string text = "solid name of it\n" + facet + "endsolid name of it\n";
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string changed = text;
+        for (std::size_t at = changed.find(from); at != changed.npos; at = changed.find(from, at + to.size()))
+            changed.replace(at, from.size(), to);
+        return changed;
+    };
+    for (const std::string& one :
+         {text, upper_case(text), " \r\n\t" + text, "\xEF\xBB\xBF" + text, "\xEF\xBB\xBF  " + upper_case(text),
+          with("\n", "\r\n"), with("\n", "\r"), with(" name of it", ""), with("solid ", "Solid "),
+          with("normal 0 0 1", "normal nan nan nan"), with("  ", "\t"), with("endsolid name of it\n", ""),
+          binary_stl("made by a program", 1), binary_stl("solid made by a program", 1), binary_stl("solid", 1, 7),
+          binary_stl("solid facet normal", 1), binary_stl("COLOR=abc", 1, 2)}) {
+        INFO(one);
+        const host::MeshFile mesh = host::mesh_of(one, "a.stl");
+        CHECK(mesh.vertices == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+        CHECK(mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}});
+    }
+    CHECK(host::mesh_of(text + upper_case(text), "a.stl").triangles.size() == 2);
+    const auto refused = [](const std::string& bytes) { return refusal(bytes, "a.stl"); };
+    CHECK(says(refused(with("vertex 1 0 0", "vertex 1 0,5 0")), "a.stl: line 5: a vertex needs three finite numbers"));
+    CHECK(says(refused(with("vertex 1 0 0\n", "")), "line 6: a facet needs three vertices"));
+    CHECK(says(refused(text.substr(0, text.find("endloop"))), "line 7: the file ends within a facet"));
+    CHECK(says(refused("mesh of mine " + text), "its text does not begin with \"solid\""));
+    CHECK(says(refused(binary_stl("solid", 3).substr(0, 200)), "it says 3 triangles in 200 bytes"));
+    CHECK(says(refused("\xFF\xFE" + text), "UTF-16"));
+    CHECK(says(refused(""), "not an STL file"));
 }

@@ -160,6 +160,7 @@ TEST_CASE("imports: mutated files are read or refused with file and place") {
                                                            {"a.urdf", text_of_file("arm.urdf")},
                                                            {"a.gltf", text_of_file("physics.gltf")},
                                                            {"a.glb", glb_of(text_of_file("physics.gltf"))},
+                                                           {"b.gltf", text_of_file("stretched.gltf")},
                                                            {"a.obj", cube_obj()},
                                                            {"a.stl", stl},
                                                            {"b.stl", ascii}};

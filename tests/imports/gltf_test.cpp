@@ -29,7 +29,7 @@ TEST_CASE("imports: a glTF scene's bodies have its shapes, masses, materials and
                &door = named(scene, "door");
     CHECK(std::get<Box>(floor.shape).half_extents == vec3(10, 0.5f, 10));
     CHECK(floor.static_friction == 0.5f);
-    CHECK(floor.friction_rule == CombineRule::minimum);
+    CHECK(floor.friction_rule == CombineRule::overriding_minimum);
     CHECK(std::get<Sphere>(ball.shape).radius == 1);
     CHECK(mass_properties(ball).mass == Approx(3));
     CHECK(mass_properties(ball).inertia.x == Approx(0.4 * 3));

@@ -29,6 +29,7 @@ public:
             return what.starts_with(folder) ? what.substr(folder.size()) : what;
         }
     }
+    std::filesystem::path folder() const { return folder_.path(); }
     bool noted(const std::string& words) const {
         for (const std::string& note : notes)
             if (note.find(words) != std::string::npos) return true;

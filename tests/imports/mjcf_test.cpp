@@ -1,4 +1,5 @@
 // MJCF: masses against closed forms, poses, joints, motors, filters; what is noted and what is refused.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
@@ -76,6 +77,25 @@ TEST_CASE("imports: masses, centres and inertias of MJCF geoms are those of clos
                  {0.1, -0.05, 0.02});
 }
 
+TEST_CASE("imports: balanceinertia and boundinertia are about the principal moments, however the body is turned") {
+    Case file;
+    const auto moments = [&](const std::string& compiler, const std::string& diagonal) {
+        const std::string model = "<mujoco><compiler " + compiler + "/><worldbody><body><freejoint/><geom size='0.1'/>" +
+                                  "<inertial pos='0 0 0' mass='3' quat='1 0 0.41421356 0' diaginertia='" + diagonal +
+                                  "'/></body></worldbody></mujoco>";
+        const vec3 found = file.load("a.xml", model, as_in_file).scene.bodies.at(0).inertial->inertia;
+        std::vector<float> all{found.x, found.y, found.z};
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    for (const float moment : moments("balanceinertia='true'", "1 1 5")) CHECK(moment == Approx(7.0 / 3));
+    CHECK(moments("balanceinertia='true'", "1 2 2.5")[0] == Approx(1));
+    const std::vector<float> bounded = moments("boundinertia='1.5'", "1 2 2.5");
+    CHECK(bounded[0] == Approx(1.5));
+    CHECK(bounded[1] == Approx(2));
+    CHECK(bounded[2] == Approx(2.5));
+}
+
 TEST_CASE("imports: a mesh's mass is of what it encloses, an unjointed body is one with its parent") {
     Case file;
     const std::string model =
@@ -88,6 +108,44 @@ TEST_CASE("imports: a mesh's mass is of what it encloses, an unjointed body is o
     CHECK(of.mass == Approx(200).epsilon(1e-5));
     CHECK(of.centre.x == Approx(0.125).margin(1e-5));
     CHECK(of.centre.z == Approx(0.5 * 0.25 + 0.5 * 3).margin(1e-5));
+}
+
+TEST_CASE("imports: meshes of MJCF lie where refpos, refquat and scale put them, in this order") {
+    Case file;
+    const std::string corners = "0 0 0  1 0 0  0 1 0  1 1 0  0 0 1  1 0 1  0 1 1  1 1 1";
+    file.write(
+        "cube.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\n"
+        "f 1 5 7 3\nf 2 4 8 6\n");
+    const std::string asset = "refpos='1 2 3' refquat='0.8 0 0.6 0' scale='0.5 0.25 -2'";
+    const glm::dmat3 back = glm::transpose(glm::mat3_cast(glm::dquat(0.8, 0, 0.6, 0)));
+    for (const std::string& mesh : {"<asset><mesh name='m' file='cube.obj' " + asset + "/></asset>",
+                                    "<asset><mesh name='m' vertex='" + corners + "' " + asset + "/></asset>",
+                                    "<default><mesh " + asset + "/></default><asset><mesh name='m' file='cube.obj'/></asset>",
+                                    "<default><default class='c'><mesh " + asset +
+                                        "/></default></default><asset><mesh name='m' "
+                                        "class='c' file='cube.obj'/></asset>"}) {
+        INFO(mesh);
+        const Scene scene = file.load("a.xml",
+                                      "<mujoco>" + mesh +
+                                          "<worldbody><body pos='0 0 7'><freejoint/>"
+                                          "<geom type='mesh' mesh='m' density='500'/></body></worldbody></mujoco>",
+                                      as_in_file)
+                                .scene;
+        const Body& body = scene.bodies.at(0);
+        CHECK(body.position == vec3(0, 0, 7));
+        const auto& points = std::get<Hull>(body.shape).points;
+        CHECK(points.size() == 8);
+        for (int k = 0; k < 8; ++k) {
+            const glm::dvec3 at =
+                glm::dvec3(0.5, 0.25, -2) * (back * (glm::dvec3(k & 1, k >> 1 & 1, k >> 2) - glm::dvec3(1, 2, 3)));
+            double nearest = 1;
+            for (const vec3& point : points) nearest = std::min(nearest, glm::length(glm::dvec3(point) - at));
+            CHECK(nearest < 1e-5);
+        }
+        CHECK(mass_properties(checked(scene).bodies[0]).mass == Approx(500 * 0.25));
+        CHECK(file.notes.empty());
+    }
 }
 
 TEST_CASE("imports: a hinge of an MJCF file swings with the period of theory, up turned or not, with armature and without") {

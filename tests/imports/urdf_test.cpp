@@ -94,6 +94,89 @@ TEST_CASE("imports: links that are fixed merge, a root is fixed with a note or f
     CHECK(std::get<Plane>(scene.bodies[1].shape).offset == Approx(-0.5));
 }
 
+TEST_CASE("imports: a root moves freely if it and what fixed joints join to it have a mass, else it is told") {
+    Case file;
+    const std::string shape = "<collision><geometry><box size='0.6 0.3 0.2'/></geometry></collision>";
+    const auto link = [](const std::string& name, const std::string& inside = "") {
+        return "<link name='" + name + "'>" + inside + "</link>";
+    };
+    const auto joint = [](const std::string& a, const std::string& b, const std::string& type = "fixed") {
+        return "<joint name='" + a + b + "' type='" + type + "'><parent link='" + a + "'/><child link='" + b +
+               "'/><origin xyz='0 0 0.5'/></joint>";
+    };
+    struct Base {
+        std::string links;
+        double mass;
+        std::string note;  // where it is free
+    };
+    const std::vector<Base> bases = {
+        {link("a", mass), 2, ""},
+        {link("a", shape) + link("b", mass) + joint("a", "b"), 2, ""},
+        {link("a") + link("b", mass) + joint("a", "b"), 2, ""},
+        {link("a") + link("b", mass) + link("c", mass) + joint("a", "b") + joint("a", "c"), 4, ""},
+        {link("a") + link("b") + link("c") + link("d", mass + shape) + joint("a", "b") + joint("b", "c") + joint("c", "d"), 2,
+         ""},
+        {link("a") + link("b", mass) + joint("a", "b") + link("c", mass) + joint("a", "c", "continuous"), 2, ""},
+        {link("a", shape), 36, "link \"a\": inertial: is missing or of 0 kg; its mass is that of its collision shapes"},
+        {link("a") + link("b", shape) + joint("a", "b"), 36, "is missing or of 0 kg"},
+        {link("a", shape + "<inertial><mass value='3'/></inertial>"), 3, "inertia: is missing or 0"}};
+    for (const Base& base : bases) {
+        INFO(base.links);
+        const std::string text = "<robot name='r'>" + base.links + "</robot>";
+        const Scene free = file.load("r.urdf", text, {.base = ImportedBase::free}).scene;
+        CHECK(file.notes.size() == (base.note.empty() ? 0 : 1));
+        CHECK((base.note.empty() || file.noted(base.note)));
+        World world(free);
+        const float before = world.body(0).position.y;
+        world.step(30);
+        CHECK(before - world.body(0).position.y == Approx(1.226).epsilon(0.03));
+        CHECK(mass_properties(world.scene().bodies[0]).mass == Approx(base.mass).epsilon(1e-5));
+        const Scene usual = file.load("r.urdf", text).scene;
+        CHECK(file.noted("link \"a\": is the root and fixed to the world; --base free"));
+        CHECK(usual.bodies.at(0).motion == Motion::fixed);
+        file.load("r.urdf", text, {.base = ImportedBase::fixed});
+        CHECK(file.notes.empty());
+    }
+    const std::string arm = link("a") + link("b", mass) + joint("a", "b", "continuous");
+    CHECK(file.refusal("r.urdf", "<robot name='r'>" + arm + "</robot>", {.base = ImportedBase::free}).find("have no mass") !=
+          std::string::npos);
+    file.load("r.urdf", "<robot name='r'>" + link("world") + link("b", mass) + joint("world", "b") + "</robot>",
+              {.base = ImportedBase::free});
+    CHECK(file.noted("is the world by its name: it stays fixed"));
+    const Scene afloat = file.load("r.urdf",
+                                   "<robot name='r'>" + link("a") + link("b", mass) + link("c", mass) +
+                                       joint("a", "b", "floating") + joint("b", "c", "floating") + "</robot>",
+                                   {.base = ImportedBase::free})
+                             .scene;
+    REQUIRE(afloat.bodies.size() == 2);
+    CHECK(afloat.bodies[1].position.y == Approx(1));
+    CHECK(afloat.joints.empty());
+}
+
+TEST_CASE("imports: links of a URDF without inertial properties have those of their collision shapes") {
+    Case file;
+    const auto link = [&](const std::string& inside) {
+        const std::string text = "<robot name='r'><link name='base'/><link name='a'>" + inside +
+                                 "<collision><origin xyz='0 0 1'/><geometry><box size='0.6 0.4 0.2'/></geometry></collision>"
+                                 "<visual><geometry><sphere radius='3'/></geometry></visual></link><joint name='j' "
+                                 "type='continuous'><parent link='base'/><child link='a'/></joint></robot>";
+        return *file.load("r.urdf", text, {.axes = ImportedAxes::file}).scene.bodies.at(0).inertial;
+    };
+    const Inertial shaped = link("");
+    CHECK(shaped.mass == Approx(48));
+    CHECK(shaped.centre.z == Approx(1));
+    CHECK(glm::length(shaped.inertia - 4.0f * vec3(0.2f, 0.4f, 0.52f)) < 1e-4f);
+    CHECK(file.noted("at 1000 kg/m^3"));
+    const Inertial weighed = link("<inertial><origin xyz='0 0.1 0'/><mass value='12'/></inertial>");
+    CHECK(weighed.mass == 12);
+    CHECK(weighed.centre.y == Approx(0.1));
+    CHECK(glm::length(weighed.inertia - vec3(0.2f, 0.4f, 0.52f)) < 1e-4f);
+    CHECK(file.noted("link \"a\": inertia: is missing or 0; it is that of its collision shapes, for its mass"));
+    const Inertial whole = link(mass);
+    CHECK(whole.mass == 2);
+    CHECK(file.notes.empty());
+}
+
 TEST_CASE("imports: meshes of packages are found beside the file, and nowhere else") {
     Case file;
     const auto with = [](const std::string& mesh) {
@@ -109,6 +192,18 @@ TEST_CASE("imports: meshes of packages are found beside the file, and nowhere el
     file.load("robot/urdf/r.urdf", with("package://robot/meshes/cube.stl"));  // the package is the folder above
     CHECK(file.refusal("robot/urdf/r.urdf", with("../meshes/cube.stl")).find("lies outside of the file's folder") !=
           std::string::npos);
+    const std::string outside = file.refusal("robot/urdf/r.urdf", with("../meshes/cube.stl"));
+    for (const char* way : {"--allow-outside", "allow_outside=True", "--package NAME=DIR", "packages="})
+        CHECK(outside.find(way) != std::string::npos);
+    file.load("robot/urdf/r.urdf", with("../meshes/cube.stl"), {.allow_outside = true});
+    file.load("robot/urdf/r.urdf", with("../meshes/cube.stl"), {.packages = {{"any", (file.folder() / "robot").string()}}});
+    for (const std::string scheme : {"package", "model"}) {
+        const std::string unknown = file.refusal("robot/r.urdf", with(scheme + "://other/meshes/none.stl"));
+        CHECK(unknown.find("the folder of the package \"other\" is not known; give it with --package other=DIR, in Python with "
+                           "packages={\"other\": \"DIR\"}") != std::string::npos);
+        file.load("robot/r.urdf", with(scheme + "://other/meshes/cube.stl"),
+                  {.packages = {{"other", (file.folder() / "robot").string()}}});
+    }
     CHECK(file.refusal("robot/r.urdf", with("package://robot/../../../etc/passwd")).find("lies outside") != std::string::npos);
     CHECK(file.refusal("robot/r.urdf", with("none.stl")).find("cannot read") != std::string::npos);
     file.write("robot/r.dae", "<COLLADA/>");

@@ -105,6 +105,20 @@ class Imports(unittest.TestCase):
                 scree.load(path)
             self.assertTrue(str(caught.exception).startswith(path + ":2: "))
 
+    def test_a_mesh_beside_the_folder_is_read_where_that_is_allowed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, "urdf"))
+            with open(os.path.join(folder, "corner.obj"), "w") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+            path = os.path.join(folder, "urdf", "robot.urdf")
+            with open(path, "w") as file:
+                file.write("<robot name='r'><link name='a'><collision><geometry><mesh filename='../corner.obj'/></geometry>"
+                           "</collision></link></robot>")
+            with self.assertRaisesRegex(scree.SceneError, "allow_outside=True.*packages="):
+                scree.load(path)
+            for allowed in ({"allow_outside": True}, {"packages": {"any": folder}}):
+                self.assertEqual(len(scree.load(path, base="free", **allowed)), 1)
+
 
 class Errors(unittest.TestCase):
     def test_a_scene_that_cannot_be_names_the_place(self):

@@ -34,8 +34,8 @@ inline Scene belts(int bodies) {
         if (i % 5 < 2) body.rolling_resistance = 0.005f;
         if (i % 7 == 0) body.restitution = 0.6f, body.restitution_threshold = 1;
         if (i % 11 == 0) body.surface_velocity = {0, 0, 0.7f};
-        body.friction_rule = static_cast<CombineRule>(i % 6);
-        body.restitution_rule = static_cast<CombineRule>(i / 2 % 6);
+        body.friction_rule = static_cast<CombineRule>(i % 8);
+        body.restitution_rule = static_cast<CombineRule>(i / 2 % 8);
         scene.bodies.push_back(body);
     }
     return scene;

@@ -61,6 +61,8 @@ TEST_CASE("friction and restitution combine by the rule that ranks higher") {
     CHECK(friction_of(with(average, 0.2f), with(minimum, 0.8f)) == Approx(0.2f).epsilon(0.01));
     CHECK(friction_of(with(multiply, 0.2f), with(minimum, 0.8f)) == Approx(0.16f).epsilon(0.01));
     CHECK(friction_of(with(maximum, 0.2f), with(multiply, 0.8f)) == Approx(0.8f).epsilon(0.01));
+    CHECK(friction_of(with(overriding_minimum, 0.2f), with(maximum, 0.8f)) == Approx(0.2f).epsilon(0.01));
+    CHECK(friction_of(with(overriding_minimum, 0.2f), with(overriding_average, 0.8f)) == Approx(0.5f).epsilon(0.01));
     const auto bouncing = [](CombineRule rule, float e) { return Material{.restitution = e, .restitution_rule = rule}; };
     CHECK(rebound_of(bouncing(usual, 0.2f), bouncing(usual, 0.8f), 3) == Approx(0.8f).epsilon(0.01));
     CHECK(rebound_of(bouncing(geometric, 0.2f), bouncing(usual, 0.8f), 3) == Approx(0.4f).epsilon(0.01));

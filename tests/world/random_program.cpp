@@ -64,7 +64,7 @@ Material material(Dice& dice) {
     if (dice.one_in(5)) made.static_friction = made.friction + 0.2f;
     if (dice.one_in(6)) made.spinning_resistance = 0.01f;
     if (dice.one_in(8)) made.surface_velocity = dice.vector(2);
-    if (dice.one_in(5)) made.friction_rule = static_cast<CombineRule>(dice.below(6));
+    if (dice.one_in(5)) made.friction_rule = static_cast<CombineRule>(dice.below(8));
     return made;
 }
 

@@ -101,6 +101,16 @@ Inertial inertial_of(const SolidMass& mass, const Origin& at) {
 // Each shape that nothing moves is a body of its own.
 void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional<Filter>>& filters) {
     const ModelBody& from = all.model.bodies[index];
+    const auto add = [&](Body body, const Origin& origin) {
+        all.bodies[index].push_back(all.scene.bodies.size());
+        all.origins.push_back(origin);
+        all.scene.bodies.push_back(std::move(body));
+    };
+    if (from.shapeless) {
+        Body body{.name = from.name, .motion = Motion::fixed, .shape = Compound{}};
+        place(body, all.root * all.zero[index]);
+        add(std::move(body), from.origin);
+    }
     for (const Geometry& one : from.geometries) {
         const Placed placed = all.root * all.zero[index] * one.placed;
         Body body{.name = one.name.empty() ? from.name : one.name,
@@ -115,16 +125,32 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
             *plane = {vec3(normal), static_cast<float>(glm::dot(normal, placed.position))};
             place(body, {});
         }
-        all.bodies[index].push_back(all.scene.bodies.size());
-        all.origins.push_back(one.origin);
-        all.scene.bodies.push_back(std::move(body));
+        add(std::move(body), one.origin);
     }
 }
 
 struct Carried {  // what a moving body carries: its own and that of those fixed to it
     Shapes shapes;
-    SolidMass mass;
+    SolidMass mass, mass_of_shapes;
 };
+
+bool has_all_moments(const SolidMass& mass) {
+    const dmat3 axes = principal_axes(mass.inertia), along = glm::transpose(axes) * mass.inertia * axes;
+    const double least = 1e-9 * (along[0][0] + along[1][1] + along[2][2]);
+    return along[0][0] > least && along[1][1] > least && along[2][2] > least;
+}
+
+// What a file leaves out of the mass of what moves, from its shapes.
+SolidMass completed(const Carried& carried, const Origin& at, Notes& notes) {
+    const SolidMass &given = carried.mass, &shapes = carried.mass_of_shapes;
+    if (!(shapes.mass > 0) || (given.mass > 0 && has_all_moments(given))) return given;
+    if (!(given.mass > 0)) {
+        notes.add(at, "inertial", "is missing or of 0 kg; its mass is that of its collision shapes at 1000 kg/m^3");
+        return shapes;
+    }
+    notes.add(at, "inertia", "is missing or 0; it is that of its collision shapes, for its mass");
+    return {given.mass, given.centre, scaled_mass(shapes, given.mass / shapes.mass).inertia};
+}
 
 void add_moving(Assembly& all, std::size_t index, const Carried& carried, const ModelMotion& start,
                 const std::vector<std::optional<Filter>>& filters) {
@@ -133,8 +159,9 @@ void add_moving(Assembly& all, std::size_t index, const Carried& carried, const 
     const Placed frame = all.frames[index] = give_shape(body, carried.shapes, filters);
     place(body, all.root * start.placed * frame);
     if (!from.kinematic) {
-        body.inertial = inertial_of(placed_mass(carried.mass, inverse(frame)), from.origin);
-        body.velocity = vec3(all.root.turn * start.velocity_at(start.placed * carried.mass.centre));
+        const SolidMass mass = completed(carried, from.origin, all.notes);
+        body.inertial = inertial_of(placed_mass(mass, inverse(frame)), from.origin);
+        body.velocity = vec3(all.root.turn * start.velocity_at(start.placed * mass.centre));
         body.angular_velocity = vec3(all.root.turn * start.spin);
         body.gravity_scale = from.gravity_scale;
     }
@@ -156,6 +183,7 @@ void add_all_bodies(Assembly& all) {
         if (owner == world_body) continue;
         const Placed within = inverse(all.zero[owner]) * all.zero[b];
         carried[owner].mass = sum_of(carried[owner].mass, placed_mass(body.mass, within));
+        carried[owner].mass_of_shapes = sum_of(carried[owner].mass_of_shapes, placed_mass(body.mass_of_shapes, within));
         for (const Geometry& one : body.geometries) {
             if (one.terrain) refuse(one.origin, "terrain stands still, and its body moves");
             carried[owner].shapes.geometries.push_back(&one);

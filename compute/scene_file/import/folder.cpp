@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 
 #include "compute/scene/hull.h"
 #include "host/files/file.h"
@@ -40,6 +41,18 @@ fs::path canonical_or_itself(const fs::path& path) {
     return failed ? path.lexically_normal() : found;
 }
 
+std::array<double, 12> MeshMap::numbers() const {
+    std::array<double, 12> all{};
+    for (int k = 0; k < 12; ++k) all[static_cast<std::size_t>(k)] = k < 9 ? linear[k / 3][k % 3] : offset[k - 9];
+    return all;
+}
+
+void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::uvec3>& triangles) {
+    for (vec3& vertex : vertices) vertex = vec3(map.linear * dvec3(vertex) + map.offset);
+    if (glm::determinant(map.linear) < 0)
+        for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
+}
+
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
                      const std::vector<std::size_t>& groups) {
     MeshSolid solid;
@@ -62,12 +75,14 @@ MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::u
 }
 
 Folder::Folder(const fs::path& file, const ImportOptions& options)
-    : shown_(file.string()), folder_(canonical_or_itself(file.has_parent_path() ? file.parent_path() : ".")) {
+    : shown_(file.string()),
+      folder_(canonical_or_itself(file.has_parent_path() ? file.parent_path() : ".")),
+      allow_outside_(options.allow_outside) {
     for (const auto& [name, folder] : options.packages) packages_[name] = canonical_or_itself(folder);
 }
 
-// A package's folder: as given, beside the file, or the folder of that name that the file lies in.
-fs::path Folder::package(const Origin& at, const std::string& name) {
+// A package's folder: as given, beside the file, or the folder of that name that the file lies in. None if it is not known.
+std::optional<fs::path> Folder::package(const Origin& at, const std::string& name) {
     if (name.empty() || name == "." || name == ".." || name.find('/') != name.npos)
         refuse(at, "\"package://" + name + "\" names no package");
     if (const auto known = packages_.find(name); known != packages_.end()) return known->second;
@@ -75,26 +90,30 @@ fs::path Folder::package(const Origin& at, const std::string& name) {
     if (fs::is_directory(folder_ / name, ignored)) return packages_[name] = folder_ / name;
     for (fs::path above = folder_; above.has_filename() && above != above.parent_path(); above = above.parent_path())
         if (above.filename() == name) return packages_[name] = above;
-    return packages_[name] = folder_;
+    return std::nullopt;
 }
 
 fs::path Folder::resolved(const Origin& at, const std::string& name) {
-    const std::string scheme = "package://";
-    fs::path path;
-    if (name.starts_with(scheme)) {
+    fs::path path = folder_ / (name.starts_with("file://") ? name.substr(7) : name);
+    for (const std::string scheme : {"package://", "model://"}) {
+        if (!name.starts_with(scheme)) continue;
         const std::size_t slash = std::min(name.find('/', scheme.size()), name.size());
-        const std::string rest = slash < name.size() ? name.substr(slash + 1) : "";
-        path = package(at, name.substr(scheme.size(), slash - scheme.size())) / fs::path(rest).relative_path();
-    } else {
-        path = folder_ / (name.starts_with("file://") ? name.substr(7) : name);
+        const std::string in = name.substr(scheme.size(), slash - scheme.size());
+        const std::optional<fs::path> known = package(at, in);
+        path = known.value_or(folder_) / fs::path(slash < name.size() ? name.substr(slash + 1) : "").relative_path();
+        std::error_code ignored;
+        if (!known && !fs::exists(path, ignored))
+            refuse(at, "\"" + name + "\": the folder of the package \"" + in + "\" is not known; give it with --package " + in +
+                           "=DIR, in Python with packages={\"" + in + "\": \"DIR\"}");
     }
     const fs::path found = canonical_or_itself(path);
-    bool inside = is_inside(found, folder_);
+    bool inside = allow_outside_ || is_inside(found, folder_);
     for (const auto& [package_name, folder] : packages_) inside = inside || is_inside(found, folder);
     if (!inside)
-        refuse(at, "\"" + name +
-                       "\" lies outside of the file's folder; files are read from there, and from the folders of "
-                       "--package NAME=DIR alone");
+        refuse(at,
+               "\"" + name +
+                   "\" lies outside of the file's folder; allow it with --allow-outside, in Python with allow_outside=True, or "
+                   "name its folder with --package NAME=DIR, packages={\"NAME\": \"DIR\"}");
     return found;
 }
 
@@ -113,19 +132,17 @@ std::string Folder::bytes(const Origin& at, const std::string& name) {
     }
 }
 
-std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::string& name, const glm::dvec3& scale, bool groups) {
+std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::string& name, const MeshMap& map, bool groups) {
     const std::string path = path_of(at, name);
-    std::string key = path + (groups ? "|" : "") + "|";
-    for (int k = 0; k < 3; ++k) key += std::to_string(scale[k]) + "|";
-    std::shared_ptr<const MeshSolid>& made = meshes_[key];
+    std::shared_ptr<const MeshSolid>& made = meshes_[{path, map, groups}];
     if (made) return made;
-    for (int k = 0; k < 3; ++k)
-        if (!(std::abs(scale[k]) >= 1e-6 && std::abs(scale[k]) <= 1e6)) refuse(at, "a mesh's scale must be 1e-6 to 1e6");
+    for (int k = 0; k < 3; ++k) {
+        const double scale = glm::length(glm::row(map.linear, k));
+        if (!(scale >= 1e-6 && scale <= 1e6)) refuse(at, "a mesh's scale must be 1e-6 to 1e6");
+    }
     try {
         host::MeshFile file = host::mesh_of(bytes(at, name), path, std::filesystem::path(path).parent_path());
-        for (vec3& vertex : file.vertices) vertex = vec3(glm::dvec3(vertex) * scale);
-        if (scale.x * scale.y * scale.z < 0)
-            for (glm::uvec3& triangle : file.triangles) std::swap(triangle.y, triangle.z);
+        map_mesh(map, file.vertices, file.triangles);
         if (!groups || file.groups.empty()) file.groups = {0};
         if (file.groups.size() > most_groups) refuse(at, "\"" + name + "\" has more than 10000 groups");
         made = std::make_shared<MeshSolid>(mesh_solid(file.vertices, file.triangles, file.groups));

@@ -1,10 +1,13 @@
-// The files that an imported file names: read from its own folder and its packages' alone.
+// The files that an imported file names: read from its own folder and its packages' alone, unless others are allowed.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "compute/scene_file/import/import_options.h"
@@ -12,6 +15,16 @@
 #include "compute/scene_file/import/solid_mass.h"
 
 namespace scree::imports {
+
+// How a mesh lies where it is named: linear * point + offset.
+struct MeshMap {
+    dmat3 linear{1};
+    dvec3 offset{0};  // m
+    auto operator<=>(const MeshMap& o) const { return numbers() <=> o.numbers(); }
+    std::array<double, 12> numbers() const;
+};
+// Triangles of a mirrored mesh face outwards as before.
+void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::uvec3>& triangles);
 
 // The convex hull of a mesh, or of each of its groups, and the mass properties of the mesh.
 struct MeshSolid {
@@ -31,21 +44,22 @@ public:
     Folder(const std::filesystem::path& file, const ImportOptions& options);
 
     const std::string& shown() const { return shown_; }  // the imported file, for messages
-    // Bytes of a file that `at` names, and the name to show. Refused outside the folders.
+    // Bytes of a file that `at` names, and the name to show. Refused outside the folders that may be read.
     std::string bytes(const Origin& at, const std::string& name);
     std::string path_of(const Origin& at, const std::string& name);
-    // A mesh, scaled; of an OBJ file with groups, one hull for each if `groups`. Cached.
-    std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const glm::dvec3& scale,
+    // A mesh; of an OBJ file with groups, one hull for each if `groups`. Cached.
+    std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const MeshMap& map = {},
                                           bool groups = false);
 
 private:
     std::filesystem::path resolved(const Origin& at, const std::string& name);
-    std::filesystem::path package(const Origin& at, const std::string& name);
+    std::optional<std::filesystem::path> package(const Origin& at, const std::string& name);
 
     std::string shown_;
     std::filesystem::path folder_;
     std::map<std::string, std::filesystem::path> packages_;
-    std::map<std::string, std::shared_ptr<const MeshSolid>> meshes_;
+    bool allow_outside_;
+    std::map<std::tuple<std::string, MeshMap, bool>, std::shared_ptr<const MeshSolid>> meshes_;
     std::uintmax_t read_ = 0;  // bytes so far
 };
 

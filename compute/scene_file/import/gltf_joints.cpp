@@ -86,30 +86,10 @@ JointKind kind_of(const GltfAxes& axes, dquat& turn) {
 
 }  // namespace
 
-glm::dmat4 local_matrix(GltfValue& node) {
-    glm::dmat4 matrix(1);
-    const auto all = node.numbers("matrix", 16), at = node.numbers("translation", 3), turn = node.numbers("rotation", 4),
-               scale = node.numbers("scale", 3);
-    for (std::size_t i = 0; i < all.size(); ++i) matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = all[i];
-    if (!at.empty()) matrix[3] = glm::dvec4(at[0], at[1], at[2], 1);
-    if (!turn.empty()) {
-        const dquat q(turn[3], turn[0], turn[1], turn[2]);
-        if (!(glm::length(q) > 1e-9)) node.refuse("\"rotation\" is a quaternion of length 0");
-        matrix *= glm::mat4_cast(glm::normalize(q));
-    }
-    for (int k = 0; k < 3 && !scale.empty(); ++k) matrix[k] *= scale[static_cast<std::size_t>(k)];
-    return matrix;
-}
-
-Placed placed_of(const glm::dmat4& matrix) {
-    dmat3 axes;
-    for (int k = 0; k < 3; ++k) axes[k] = glm::length(dvec3(matrix[k])) > 0 ? glm::normalize(dvec3(matrix[k])) : dvec3(0);
-    return {dvec3(matrix[3]), glm::normalize(glm::quat_cast(axes))};
-}
-
 void add_gltf_joints(Scene& scene, const std::vector<std::pair<std::size_t, GltfValue>>& joints, const GltfValue& kinds,
                      const std::vector<GltfNode>& nodes, std::size_t fixed) {
-    for (auto [node, value] : joints) {
+    for (const auto& [node, given] : joints) {
+        GltfValue value = given;
         const std::size_t other = value.index("connectedNode", nodes.size(), none_given);
         const std::size_t kind = value.index("joint", kinds.size(), none_given);
         if (kind == none_given || other == none_given) value.refuse("needs \"connectedNode\" and \"joint\"");
@@ -126,6 +106,9 @@ void add_gltf_joints(Scene& scene, const std::vector<std::pair<std::size_t, Gltf
         dquat added(1, 0, 0, 0);
         joint.kind = kind_of(axes, added);
         const auto end = [&](std::size_t at, std::size_t& body, vec3& anchor, vec4& frame) {
+            if (!keeps_right_angles(nodes[at].world) || !(glm::determinant(dmat3(nodes[at].world)) > 0))
+                value.refuse("the frame of node " + std::to_string(at) +
+                             " is sheared, mirrored or flat, and its axes are none of a joint; give it no such scale");
             Placed carrier;
             if (nodes[at].body != world_body) {
                 body = fixed + nodes[at].body - 1;

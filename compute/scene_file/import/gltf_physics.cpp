@@ -5,8 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/double_quaternion.h"
 #include "compute/scene_file/import/gltf_joints.h"
+#include "compute/scene_file/import/gltf_materials.h"
+#include "compute/scene_file/import/gltf_shapes.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
 
@@ -17,9 +19,22 @@ namespace {
 constexpr const char* bodies_key = "KHR_physics_rigid_bodies";
 constexpr const char* shapes_key = "KHR_implicit_shapes";
 constexpr std::size_t most_visits = 1'000'000;
+constexpr std::size_t most_vertices = 100'000'000;
+constexpr double default_density = 1000;  // kg/m^3, as of a scene's bodies
 
-dvec3 scale_of(const glm::dmat4& matrix) {
-    return {glm::length(dvec3(matrix[0])), glm::length(dvec3(matrix[1])), glm::length(dvec3(matrix[2]))};
+// The unit axes of a transform, mirrored or sheared as they may be.
+dmat3 axes_of(const glm::dmat4& matrix) {
+    dmat3 axes(1);
+    const dvec3 scale = scale_of(matrix);
+    for (int k = 0; k < 3; ++k)
+        if (scale[k] > 0) axes[k] = dvec3(matrix[k]) / scale[k];
+    return axes;
+}
+
+// Of morph targets, which those of 0 do not move.
+void note_weights(GltfValue value) {
+    for (const nlohmann::json& weight : value.at("weights").json())
+        if (weight != 0) return value.note("weights", "are left out; the mesh collides undeformed");
 }
 
 class Gltf {
@@ -29,15 +44,17 @@ public:
     SceneDocument read(const std::string& name);
 
 private:
-    void read_materials(GltfValue materials);
-    void read_filters(GltfValue filters);
     void walk(std::size_t node, const glm::dmat4& above, std::size_t body, int depth);
-    std::size_t add_body(GltfValue motion, const Placed& placed, const std::string& name);
+    std::size_t add_body(GltfValue motion, const glm::dmat4& world, const std::string& name);
     void finish_mass(GltfValue motion, std::size_t body);
     void add_collider(GltfValue collider, const GltfNode& node, const std::string& name, bool sensor);
-    void add_shape(GltfValue shape, const dvec3& scale, Geometry& geometry);
+    void add_shape(GltfValue shape, const glm::dmat4& frame, Geometry like, ModelBody& body);
     void add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like);
+    void add_surface(const host::MeshFile& mesh, const Geometry& like);
+    void collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into, int depth);
+    void collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into);
     const std::vector<host::MeshFile>& meshes();
+    std::size_t child_of(const GltfValue& list, std::size_t i) const;
 
     Folder& folder_;
     const ImportOptions& options_;
@@ -47,13 +64,21 @@ private:
     std::optional<std::vector<host::MeshFile>> meshes_;
     std::vector<GltfNode> nodes_;
     std::vector<Material> materials_;
-    std::size_t filters_ = 0, visits_ = 0;
-    std::optional<GltfValue> node_list_, shape_list_;
+    std::size_t visits_ = 0;
+    std::optional<GltfValue> node_list_, shape_list_, mesh_list_;
     std::vector<std::pair<std::size_t, GltfValue>> joints_;   // by node
     std::vector<std::pair<std::size_t, GltfValue>> motions_;  // by body
+    std::vector<glm::dmat4> body_nodes_{glm::dmat4(1)};       // their nodes' transforms
     std::vector<Body> surfaces_;                              // static triangle meshes
     Model model_;
 };
+
+// A node that a list names.
+std::size_t Gltf::child_of(const GltfValue& list, std::size_t i) const {
+    const nlohmann::json& child = list.at(i).json();
+    if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= nodes_.size()) list.refuse("names a node that is not there");
+    return child.get<std::size_t>();
+}
 
 const std::vector<host::MeshFile>& Gltf::meshes() {
     if (meshes_) return *meshes_;
@@ -65,74 +90,24 @@ const std::vector<host::MeshFile>& Gltf::meshes() {
     return *meshes_;
 }
 
-void Gltf::read_materials(GltfValue materials) {
-    static const std::vector<std::string> rules = {"average", "minimum", "maximum", "multiply"};
-    static const CombineRule of[] = {CombineRule::average, CombineRule::minimum, CombineRule::maximum, CombineRule::multiply};
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        GltfValue one = materials.at(i);
-        Material material;
-        material.static_friction = static_cast<float>(one.number("staticFriction", 0.6));
-        material.friction = static_cast<float>(one.number("dynamicFriction", 0.6));
-        material.restitution = static_cast<float>(one.number("restitution", 0));
-        material.friction_rule = of[one.word("frictionCombine", rules, 0)];
-        material.restitution_rule = of[one.word("restitutionCombine", rules, 0)];
-        for (const CombineRule rule : {material.friction_rule, material.restitution_rule})
-            if (rule == CombineRule::maximum || rule == CombineRule::multiply)
-                one.note("combine", "of maximum and multiply maximum applies here, and multiply in glTF");
-        one.finish();
-        materials_.push_back(material);
-    }
-}
-
-// Each filter is a class of collision; the first class is what has none.
-void Gltf::read_filters(GltfValue filters) {
-    struct Systems {
-        std::set<std::string> in, with, without;
-        bool says_with = false;
-    };
-    std::vector<Systems> all(1);
-    filters_ = filters.size();
-    if (filters_ > 30) filters.refuse("has more than 30 filters, which is what scree has");
-    for (std::size_t i = 0; i < filters_; ++i) {
-        GltfValue one = filters.at(i);
-        Systems& systems = all.emplace_back();
-        const auto names = [&](const char* key, std::set<std::string>& into) {
-            const GltfValue list = one.at(key);
-            for (std::size_t k = 0; k < list.size(); ++k) {
-                if (!list.at(k).json().is_string()) list.refuse("must be an array of strings");
-                into.insert(list.at(k).json().get<std::string>());
-            }
-            return static_cast<bool>(list);
-        };
-        names("collisionSystems", systems.in);
-        systems.says_with = names("collideWithSystems", systems.with);
-        names("notCollideWithSystems", systems.without);
-        one.finish();
-    }
-    const auto allows = [](const Systems& a, const Systems& b) {
-        const auto shares = [&](const std::set<std::string>& with) {
-            return std::any_of(b.in.begin(), b.in.end(), [&](const std::string& name) { return with.contains(name); });
-        };
-        return a.says_with ? shares(a.with) : !shares(a.without);
-    };
-    model_.collides.assign(all.size(), std::vector<bool>(all.size()));
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t j = 0; j < all.size(); ++j) model_.collides[i][j] = allows(all[i], all[j]) && allows(all[j], all[i]);
-}
-
-std::size_t Gltf::add_body(GltfValue motion, const Placed& placed, const std::string& name) {
+std::size_t Gltf::add_body(GltfValue motion, const glm::dmat4& world, const std::string& name) {
     if (model_.bodies.size() >= std::min<std::size_t>(most_bodies_, most_visits))
         motion.refuse("there are more bodies than fit into memory");
     ModelBody body;
     body.origin = motion.origin();
     body.name = name;
-    body.placed = placed;
+    body.placed = placed_of(world);
     body.kinematic = motion.flag("isKinematic", false);
     body.free = !body.kinematic;
     body.gravity_scale = static_cast<float>(motion.number("gravityFactor", 1));
     const auto linear = motion.numbers("linearVelocity", 3), angular = motion.numbers("angularVelocity", 3);
-    if (!linear.empty()) body.velocity = placed.turn * dvec3(linear[0], linear[1], linear[2]);
-    if (!angular.empty()) body.spin = {angular[0], angular[1], angular[2]};
+    // Along the node's axes, which are left-handed where it is mirrored; spins then turn the other way.
+    const dmat3 axes = axes_of(world);
+    const double hand = glm::determinant(axes) < 0 ? -1 : 1;
+    if (!linear.empty()) body.velocity = axes * dvec3(linear[0], linear[1], linear[2]);
+    if (!angular.empty())
+        body.spin = glm::conjugate(body.placed.turn) * (hand * (axes * dvec3(angular[0], angular[1], angular[2])));
+    body_nodes_.push_back(world);
     model_.bodies.push_back(std::move(body));
     motions_.emplace_back(model_.bodies.size() - 1, motion);
     return model_.bodies.size() - 1;
@@ -150,118 +125,121 @@ void Gltf::finish_mass(GltfValue motion, std::size_t index) {
         motion.refuse("\"mass\" must be above 0 kg; an infinite one is that of kinematic bodies");
     if (given > 0 && mass.mass > 0) mass = scaled_mass(mass, given / mass.mass);
     if (given > 0) mass.mass = given;
-    if (!centre.empty()) mass.centre = {centre[0], centre[1], centre[2]};
+    const glm::dmat4& world = body_nodes_[index];
+    const Placed back = inverse(model_.bodies[index].placed);
+    if (!centre.empty()) mass.centre = back * dvec3(world * glm::dvec4(centre[0], centre[1], centre[2], 1));
     if (diagonal.empty()) return;
-    const dquat axes = turn.empty() ? dquat(1, 0, 0, 0) : dquat(turn[3], turn[0], turn[1], turn[2]);
-    if (!(glm::length(axes) > 1e-12)) motion.refuse("\"inertiaOrientation\" is of length 0");
-    const dmat3 frame = glm::mat3_cast(glm::normalize(axes));
-    dmat3 own(0);
-    for (int k = 0; k < 3; ++k) own[k][k] = diagonal[static_cast<std::size_t>(k)];
-    mass.inertia = frame * own * glm::transpose(frame);
+    if (!keeps_right_angles(world)) motion.refuse("\"inertiaDiagonal\" is of a node whose axes are sheared");
+    for (const double moment : diagonal)
+        if (!(moment > 0)) motion.refuse("\"inertiaDiagonal\" must be above 0 kg m^2; no moment here is infinite");
+    const dquat turned = turn.empty() ? dquat(1, 0, 0, 0) : dquat(turn[3], turn[0], turn[1], turn[2]);
+    if (!(glm::length(turned) > 1e-12)) motion.refuse("\"inertiaOrientation\" is of length 0");
+    const dmat3 frame = glm::mat3_cast(back.turn) * axes_of(world) * glm::mat3_cast(glm::normalize(turned));
+    mass.inertia = frame * imports::diagonal({diagonal[0], diagonal[1], diagonal[2]}) * glm::transpose(frame);
 }
 
-void Gltf::add_shape(GltfValue shape, const dvec3& scale, Geometry& geometry) {
-    static const std::vector<std::string> types = {"sphere", "box", "capsule", "cylinder", "plane"};
-    const std::size_t type = shape.word("type", types, types.size());
-    if (type == types.size()) shape.refuse("has no \"type\"");
-    GltfValue sizes = shape.at(types[type].c_str());
-    const double across = std::max(scale.x, scale.z);
-    const bool even = std::abs(scale.x - scale.z) <= 1e-4 * across;
-    if (type == 0) {
-        const double radius = sizes.number("radius", 0.5);
-        const bool round = even && std::abs(scale.y - across) <= 1e-4 * across;
-        if (round)
-            geometry.shape = Sphere{static_cast<float>(radius * across)};
-        else
-            geometry.shape = Ellipsoid{vec3(radius * scale)};
-    } else if (type == 1) {
-        const auto size = sizes.numbers("size", 3);
-        geometry.shape = Box{vec3(0.5 * (size.empty() ? dvec3(1) : dvec3(size[0], size[1], size[2])) * scale)};
-    } else if (type == 4) {
-        geometry.shape = Plane{vec3(0, 1, 0), 0};
-        if (sizes.has("sizeX") || sizes.has("sizeZ")) sizes.note("size", "of a plane is left out: it is infinite");
-        sizes.number("sizeX", 0), sizes.number("sizeZ", 0), sizes.flag("doubleSided", false);
-    } else {
-        const double bottom = sizes.number("radiusBottom", 0.25) * across, top = sizes.number("radiusTop", 0.25) * across,
-                     height = sizes.number("height", 0.5) * scale.y;
-        if (!even) sizes.refuse("is scaled to another width than depth, which scree's cannot be");
-        if (std::abs(bottom - top) > 1e-4 * std::max(bottom, top)) {
-            if (type == 2) sizes.refuse("is a tapered capsule; scree's have one radius");
-            std::vector<vec3> points;  // of the frustum: 31 corners at either end
-            for (int i = 0; i < 31; ++i) {
-                const double angle = 6.283185307179586 * i / 31;
-                for (const auto& [radius, y] : {std::pair{bottom, -0.5 * height}, std::pair{top, 0.5 * height}})
-                    points.push_back(vec3(radius * std::cos(angle), y, radius * std::sin(angle)));
-            }
-            geometry.shape = Hull{points};
-            sizes.note("radius", "that tapers makes a hull of 31 sides");
-        } else if (type == 2) {
-            geometry.shape = Capsule{static_cast<float>(bottom), static_cast<float>(0.5 * height)};
-        } else {
-            geometry.shape = Cylinder{static_cast<float>(bottom), static_cast<float>(0.5 * height)};
-        }
+void Gltf::add_shape(GltfValue shape, const glm::dmat4& frame, Geometry like, ModelBody& body) {
+    const GltfShape made = gltf_shape(shape, frame);
+    if (like.solid) body.mass = sum_of(body.mass, scaled_mass(made.mass, default_density));
+    for (const GltfShape::Part& part : made.parts) {
+        like.shape = part.shape, like.placed = part.placed;
+        body.geometries.push_back(like);
     }
-    sizes.finish();
-    shape.finish();
+}
+
+void Gltf::collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into) {
+    host::MeshFile one = meshes()[mesh];
+    if (one.triangles.empty()) return;
+    if (into.vertices.size() + one.vertices.size() > most_vertices)
+        mesh_list_->at(mesh).refuse("with it colliders have more than 100000000 vertices, a mesh of several counted for each");
+    map_mesh({dmat3(frame), dvec3(frame[3])}, one.vertices, one.triangles);
+    const auto base = static_cast<std::uint32_t>(into.vertices.size());
+    into.groups.push_back(into.triangles.size());
+    into.vertices.insert(into.vertices.end(), one.vertices.begin(), one.vertices.end());
+    for (const glm::uvec3& triangle : one.triangles) into.triangles.push_back(triangle + base);
+    note_weights(mesh_list_->at(mesh));
+}
+
+// The meshes of a node and of those below it; a node below with a motion of its own is another body.
+void Gltf::collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into, int depth) {
+    if (depth > 100) node.refuse("the nodes are nested deeper than 100, or in a circle");
+    if (++visits_ > most_visits) node.refuse("with it colliders have more than 1000000 nodes");
+    if (node.has("skin")) node.note("skin", "is left out; the mesh collides undeformed");
+    note_weights(node);
+    const std::size_t mesh = node.index("mesh", meshes().size(), none_given);
+    if (mesh != none_given) collect(mesh, frame, into);
+    const GltfValue children = node.at("children");
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        GltfValue child = node_list_->at(child_of(children, i));
+        if (child.at("extensions").at(bodies_key).has("motion"))
+            child.note("motion", "makes it another body; its mesh is left out of the collider above it");
+        else
+            collect(child, frame * local_matrix(child), into, depth + 1);
+    }
+}
+
+void Gltf::add_surface(const host::MeshFile& mesh, const Geometry& like) {
+    Body body{.name = like.name, .motion = Motion::fixed, .shape = Mesh{mesh.vertices, mesh.triangles}};
+    body.position = vec3(like.placed.position);
+    body.orientation = single_quaternion(like.placed.turn);
+    set_material(body, like.material);
+    surfaces_.push_back(std::move(body));
 }
 
 // Static meshes are surfaces; those that move, and those that say so, their hulls.
 void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
-    std::size_t mesh = geometry.index("mesh", meshes().size(), none_given);
-    const std::size_t from = geometry.index("node", nodes_.size(), none_given);
-    if (from != none_given) mesh = node_list_->at(from).index("mesh", meshes().size(), none_given);
-    if (mesh == none_given) geometry.refuse("names no shape and no mesh");
+    const std::size_t mesh = geometry.index("mesh", meshes().size(), none_given),
+                      from = geometry.index("node", nodes_.size(), none_given);
     const bool hull = geometry.flag("convexHull", false);
-    const host::MeshFile& file = meshes()[mesh];
-    if (file.triangles.empty()) geometry.refuse("its mesh has no triangles");
-    const Placed placed = placed_of(node.world);
-    const Placed back = inverse(placed);
-    std::vector<vec3> points;
-    for (const vec3& point : file.vertices) points.push_back(vec3(back * dvec3(node.world * glm::dvec4(dvec3(point), 1))));
-    const bool moves = node.body != world_body;
-    if (!hull && !moves && like.solid) {
-        Body body{.name = like.name, .motion = Motion::fixed, .shape = Mesh{points, file.triangles}};
-        body.position = vec3(placed.position);
-        body.orientation = vec4(placed.turn.x, placed.turn.y, placed.turn.z, placed.turn.w);
-        set_material(body, like.material);
-        if (like.collides_as != 0) geometry.note("", "a static mesh's filter is left out; it meets everything");
-        surfaces_.push_back(std::move(body));
-        return;
-    }
-    if (!hull) geometry.note("", "collides as its convex hull");
-    const MeshSolid solid = mesh_solid(points, file.triangles, {0});
-    if (solid.hulls.empty()) geometry.refuse("its mesh has no convex hull: " + solid.flaw);
-    like.shape = Hull{solid.hulls[0]};
+    if (mesh == none_given && from == none_given) geometry.refuse("names no shape and no mesh");
     ModelBody& body = model_.bodies[node.body];
-    if (moves && like.solid)
-        body.mass = sum_of(body.mass, placed_mass(scaled_mass(hull_mass(solid.hulls[0]), 1000), like.placed));
-    body.geometries.push_back(std::move(like));
+    like.placed = placed_of(matrix_of(inverse(body.placed)) * node.world);
+    const glm::dmat4 frame = matrix_of(inverse(body.placed * like.placed)) * node.world;
+    host::MeshFile file;
+    if (from != none_given)
+        collect(node_list_->at(from), frame, file, 0);
+    else
+        collect(mesh, frame, file);
+    if (file.triangles.empty()) geometry.refuse("its mesh has no triangles");
+    if (!hull && node.body == world_body && like.solid) {
+        if (like.collides_as != 0) geometry.note("", "a static mesh's filter is left out; it meets everything");
+        return add_surface(file, like);
+    }
+    if (hull) file.groups = {0};
+    if (!hull) geometry.note("", "collides as the convex hull of each of its meshes");
+    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups);
+    if (!solid.flaw.empty()) geometry.refuse("its mesh has no convex hull: " + solid.flaw);
+    for (const auto& corners : solid.hulls) {
+        like.shape = Hull{corners};
+        if (like.solid) body.mass = sum_of(body.mass, placed_mass(scaled_mass(hull_mass(corners), default_density), like.placed));
+        body.geometries.push_back(like);
+    }
 }
 
 void Gltf::add_collider(GltfValue collider, const GltfNode& node, const std::string& name, bool sensor) {
     GltfValue geometry = collider.at("geometry");
+    const dvec3 scale = scale_of(node.world);
+    if (scale == dvec3(0)) return collider.note("scale", "of its node is 0: it is disabled");
+    if (!(std::abs(glm::determinant(dmat3(node.world))) > 1e-9 * scale.x * scale.y * scale.z))
+        collider.refuse("its node is scaled flat");
     Geometry made;
     made.origin = collider.origin();
     made.name = name;
     made.solid = !sensor, made.sensor = sensor;
     ModelBody& body = model_.bodies[node.body];
-    const Placed placed = placed_of(node.world);
-    made.placed = node.body == world_body ? placed : inverse(body.placed) * placed;
     const std::size_t material = collider.index("physicsMaterial", materials_.size(), none_given);
     if (material != none_given) made.material = materials_[material];
-    const std::size_t filter = collider.index("collisionFilter", filters_, none_given);
+    const std::size_t filter = collider.index("collisionFilter", model_.collides.size() - 1, none_given);
     if (filter != none_given) made.collides_as = filter + 1;
     const std::size_t shape = geometry.index("shape", shape_list_->size(), none_given);
     if (shape == none_given) {
         add_mesh(geometry, node, std::move(made));
     } else {
-        add_shape(shape_list_->at(shape), scale_of(node.world), made);
-        if (std::holds_alternative<Plane>(made.shape) && node.body != world_body)
+        geometry.flag("convexHull", false);  // these shapes are
+        const std::size_t before = body.geometries.size();
+        add_shape(shape_list_->at(shape), matrix_of(inverse(body.placed)) * node.of_shapes, std::move(made), body);
+        if (node.body != world_body && std::holds_alternative<Plane>(body.geometries[before].shape))
             collider.refuse("a plane is infinite and cannot move");
-        SolidMass mass = primitive_mass(made.shape);
-        if (const auto* hull = std::get_if<Hull>(&made.shape)) mass = hull_mass(hull->points);
-        if (!sensor) body.mass = sum_of(body.mass, placed_mass(scaled_mass(mass, 1000), made.placed));
-        body.geometries.push_back(std::move(made));
     }
     geometry.finish();
     collider.finish();
@@ -274,9 +252,10 @@ void Gltf::walk(std::size_t index, const glm::dmat4& above, std::size_t body, in
     GltfNode& node = nodes_[index];
     node.reached = true;
     node.world = above * local_matrix(tree);
+    node.of_shapes = of_shapes(tree, node.world);
     GltfValue physics = tree.at("extensions").at(bodies_key);
     const std::string name = tree.text("name");
-    if (GltfValue motion = physics.at("motion")) body = add_body(motion, placed_of(node.world), name);
+    if (GltfValue motion = physics.at("motion")) body = add_body(motion, node.world, name);
     node.body = body;
     if (const GltfValue collider = physics.at("collider")) add_collider(collider, node, name, false);
     if (const GltfValue trigger = physics.at("trigger")) {
@@ -288,12 +267,7 @@ void Gltf::walk(std::size_t index, const glm::dmat4& above, std::size_t body, in
     if (const GltfValue joint = physics.at("joint")) joints_.emplace_back(index, joint);
     physics.finish();
     const GltfValue children = tree.at("children");
-    for (std::size_t i = 0; i < children.size(); ++i) {
-        const nlohmann::json& child = children.at(i).json();
-        if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= nodes_.size())
-            children.refuse("names a node that is not there");
-        walk(child.get<std::size_t>(), node.world, body, depth + 1);
-    }
+    for (std::size_t i = 0; i < children.size(); ++i) walk(child_of(children, i), node.world, body, depth + 1);
 }
 
 SceneDocument Gltf::read(const std::string& name) {
@@ -307,21 +281,19 @@ SceneDocument Gltf::read(const std::string& name) {
     }
     GltfValue root(json, "", folder_.shown(), notes_);
     if (!json.is_object()) root.refuse("is no glTF file");
+    if (root.at("animations").size() > 0) root.note("animations", "are left out; bodies move by physics alone");
     GltfValue extensions = root.at("extensions"), physics = extensions.at(bodies_key);
-    read_materials(physics.at("physicsMaterials"));
-    read_filters(physics.at("collisionFilters"));
+    materials_ = gltf_materials(physics.at("physicsMaterials"));
+    model_.collides = gltf_filters(physics.at("collisionFilters"));
     const GltfValue kinds = physics.at("physicsJoints");
     shape_list_.emplace(extensions.at(shapes_key).at("shapes"));
     node_list_.emplace(root.at("nodes"));
+    mesh_list_.emplace(root.at("meshes"));
     nodes_.resize(node_list_->size());
     const GltfValue scenes = root.at("scenes");
     if (scenes.size() == 0) root.refuse("has no scene");
     const GltfValue roots = scenes.at(root.index("scene", scenes.size(), 0)).at("nodes");
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        if (!roots.at(i).json().is_number_unsigned() || roots.at(i).json().get<std::uint64_t>() >= nodes_.size())
-            roots.refuse("names a node that is not there");
-        walk(roots.at(i).json().get<std::size_t>(), glm::dmat4(1), world_body, 0);
-    }
+    for (std::size_t i = 0; i < roots.size(); ++i) walk(child_of(roots, i), glm::dmat4(1), world_body, 0);
     for (const auto& [body, motion] : motions_) finish_mass(motion, body);
     if (model_.bodies.size() == 1 && model_.bodies[0].geometries.empty() && surfaces_.empty())
         root.refuse(

@@ -7,7 +7,7 @@ namespace scree::imports {
 
 SceneDocument scene_of_mesh(const std::string& name, Folder& folder, const ImportOptions& options, Notes& notes) {
     const Origin at{folder.shown(), 0, ""};
-    const auto solid = folder.mesh(at, name, glm::dvec3(1), true);
+    const auto solid = folder.mesh(at, name, {}, true);
     if (solid->hulls.empty()) refuse(at, "has no convex hull: " + solid->flaw);
     if (!solid->flaw.empty()) notes.add(at, "", "a group is left out: " + solid->flaw);
     if (!solid->encloses) notes.add(at, "", "its triangles enclose nothing, or face inwards; its mass is that of its hulls");

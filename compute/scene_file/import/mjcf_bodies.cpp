@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/hull.h"
 #include "compute/scene_file/import/mjcf.h"
 
 namespace scree::imports {
@@ -189,12 +190,13 @@ void Mjcf::finish_mass(std::size_t index) {
     if (compiler_.from_geoms == 0 && !has_inertial_[index]) body.mass = {};
     SolidMass& mass = body.mass;
     if (mass.mass < compiler_.least_mass) mass.mass = compiler_.least_mass;
-    for (int k = 0; k < 3; ++k) mass.inertia[k][k] = std::max(mass.inertia[k][k], compiler_.least_inertia);
-    if (!compiler_.balance) return;
-    const double trace = mass.inertia[0][0] + mass.inertia[1][1] + mass.inertia[2][2];
-    bool balanced = true;
-    for (int k = 0; k < 3; ++k) balanced = balanced && 2 * mass.inertia[k][k] <= trace;
-    if (!balanced) mass.inertia = dmat3(trace / 3);
+    if (!(compiler_.least_inertia > 0) && !compiler_.balance) return;
+    const dmat3 axes = principal_axes(mass.inertia), along = glm::transpose(axes) * mass.inertia * axes;
+    dvec3 moments;
+    for (int k = 0; k < 3; ++k) moments[k] = std::max(along[k][k], compiler_.least_inertia);
+    const double sum = moments.x + moments.y + moments.z;
+    if (compiler_.balance && 2 * std::max({moments.x, moments.y, moments.z}) > sum * (1 + 1e-9)) moments = dvec3(sum / 3);
+    mass.inertia = axes * diagonal(moments) * glm::transpose(axes);
 }
 
 void Mjcf::scale_masses() {

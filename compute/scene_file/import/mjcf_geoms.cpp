@@ -68,34 +68,42 @@ void Mjcf::give_size(Element& geom, std::size_t type, Geometry& geometry) {
     if (type == capsule || type == cylinder) geometry.placed.turn = geometry.placed.turn * y_to_z;
 }
 
-// The mesh that a geom names, and where its own frame stands in the geom's.
-std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom, Placed& placed) {
-    const std::string name = geom.text("mesh");
-    const auto found = meshes_.find(name);
-    if (found == meshes_.end()) geom.refuse("mesh", "there is no mesh \"" + name + "\"");
-    Element asset = element(*found->second.element, {});
+// As mjCMesh::ApplyTransformations: from the reference point, turned back, then scaled along the turned axes.
+MeshMap Mjcf::map_of(Element& asset) {
     const auto scale = asset.numbers<3>("scale", {1, 1, 1});
     const auto from = asset.numbers<3>("refpos", {0, 0, 0});
     const auto q = asset.numbers<4>("refquat", {1, 0, 0, 0});
     const dquat reference(q[0], q[1], q[2], q[3]);
     if (!(glm::length(reference) > 1e-12)) asset.refuse("refquat", "is of length 0");
-    placed = inverse({{from[0], from[1], from[2]}, glm::normalize(reference)});
+    const dmat3 linear =
+        diagonal(dvec3(scale[0], scale[1], scale[2])) * glm::mat3_cast(glm::conjugate(glm::normalize(reference)));
+    return {linear, linear * -dvec3(from[0], from[1], from[2])};
+}
+
+// The mesh that a geom names.
+std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom) {
+    const std::string name = geom.text("mesh");
+    const auto found = meshes_.find(name);
+    if (found == meshes_.end()) geom.refuse("mesh", "there is no mesh \"" + name + "\"");
+    Element asset = element(*found->second.element, {});
+    const MeshMap map = map_of(asset);
     asset.ignore({"texcoord", "smoothnormal", "material"}, "is not drawn");
     asset.ignore({"maxhullvert", "inertia", "octree_maxdepth"}, "is left out; hulls have at most 64 corners, and mass by volume");
     asset.pass({"content_type", "normal", "user"});
     if (asset.has("builtin") || asset.has("plugin")) asset.refuse("is made by MuJoCo; save it as a file");
-    const dvec3 scaled(scale[0], scale[1], scale[2]);
     std::string file = asset.text("file");
     if (file.empty()) {
         const auto numbers = numbers_in(asset.text("vertex"), 3'000'000);
         if (!numbers || numbers->size() < 12) asset.refuse("has neither a \"file\" nor \"vertex\" with four points or more");
+        if (numbers->size() % 3 != 0) asset.refuse("vertex", "must be three numbers for each point");
         std::vector<vec3> points;
         for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
-            points.push_back(vec3(dvec3((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]) * scaled));
+            points.push_back(vec3(dvec3((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2])));
         std::vector<glm::uvec3> triangles = faces_of(asset, points.size());
         const bool cloud = triangles.empty();  // whose hull is meant
         for (std::uint32_t i = 0; cloud && i < points.size(); ++i) triangles.emplace_back(i, i, i);
         asset.finish();
+        map_mesh(map, points, triangles);
         MeshSolid solid = mesh_solid(points, triangles, {0});
         solid.encloses = solid.encloses || cloud;
         return std::make_shared<MeshSolid>(std::move(solid));
@@ -104,7 +112,7 @@ std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom, Placed& placed) {
     const std::string& folder = compiler_.meshes.empty() ? compiler_.assets : compiler_.meshes;
     if (!folder.empty() && !file.starts_with('/')) file = folder + "/" + file;
     asset.finish();
-    return folder_.mesh(asset.origin(), file, scaled);
+    return folder_.mesh(asset.origin(), file, map);
 }
 
 void Mjcf::give_surface(Element& geom, Geometry& geometry) {
@@ -180,9 +188,7 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
     SolidMass mass;
     std::shared_ptr<const MeshSolid> solid;
     if (type == mesh) {
-        Placed inside;
-        solid = mesh_of(geom, inside);
-        geometry.placed = geometry.placed * inside;
+        solid = mesh_of(geom);
         geom.pass({"size", "fromto"});
         if (solid->hulls.empty()) {
             if (geometry.solid) geom.refuse("mesh", "has no convex hull: " + solid->flaw);

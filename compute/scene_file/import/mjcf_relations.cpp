@@ -89,7 +89,8 @@ void Mjcf::read_keyframes(const host::XmlElement& tree) {
 void Mjcf::take_keyframe() {
     const std::string& wanted = options_.keyframe;
     if (wanted.empty()) {
-        if (!keyframes_.empty()) Element(*keyframes_[0], notes_).note("", "is left out; --keyframe NAME starts there");
+        if (!keyframes_.empty())
+            Element(*keyframes_[0], notes_).note("", "is left out; --keyframe NAME (in Python keyframe=) starts there");
         return;
     }
     std::size_t index = 0;

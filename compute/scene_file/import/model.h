@@ -52,9 +52,11 @@ struct ModelBody {
     Placed placed;  // in its parent, all coordinates 0
     std::vector<ModelJoint> joints;
     bool free = false, kinematic = false;
+    bool shapeless = false;         // without geometry it is a fixed body all the same
     std::optional<Placed> start{};  // of those, at the beginning, in the parent; none: as placed
     std::vector<Geometry> geometries;
     SolidMass mass;              // in the body's frame
+    SolidMass mass_of_shapes;    // at a usual density, for what moves with no mass or no moments of inertia of its own
     dvec3 velocity{0}, spin{0};  // of a free body: m/s; rad/s, its own axes
     float gravity_scale = 1;
 };

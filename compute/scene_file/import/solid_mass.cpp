@@ -1,6 +1,7 @@
 // Mass properties of solids: closed forms, and integrals over triangles.
 #include "compute/scene_file/import/solid_mass.h"
 
+#include <cmath>
 #include <numbers>
 #include <type_traits>
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr double tau = 2 * std::numbers::pi;
 
-dmat3 diagonal(double x, double y, double z) {
-    return {x, 0, 0, 0, y, 0, 0, 0, z};
-}
-
 // Inertia of a point mass about the origin.
 dmat3 of_point(double mass, const dvec3& at) {
     return mass * (glm::dot(at, at) * dmat3(1) - glm::outerProduct(at, at));
@@ -25,7 +22,7 @@ SolidMass capsule_mass(double r, double h) {
     const double side = tau / 2 * r * r * 2 * h, caps = tau * 2 / 3 * r * r * r;
     // Half a ball: its centre lies 3/8 r from its plane.
     const double across = side * (r * r / 4 + h * h / 3) + caps * (0.4 * r * r + h * h + 0.75 * h * r);
-    return {side + caps, dvec3(0), diagonal(across, side * r * r / 2 + caps * 0.4 * r * r, across)};
+    return {side + caps, dvec3(0), diagonal({across, side * r * r / 2 + caps * 0.4 * r * r, across})};
 }
 
 }  // namespace
@@ -33,6 +30,10 @@ SolidMass capsule_mass(double r, double h) {
 Placed inverse(const Placed& frame) {
     const dquat back = glm::conjugate(frame.turn);
     return {back * -frame.position, back};
+}
+
+dmat3 diagonal(const dvec3& values) {
+    return {values.x, 0, 0, 0, values.y, 0, 0, 0, values.z};
 }
 
 SolidMass sum_of(const SolidMass& a, const SolidMass& b) {
@@ -55,6 +56,14 @@ SolidMass scaled_mass(SolidMass mass, double factor) {
     return mass;
 }
 
+SolidMass stretched_mass(const SolidMass& mass, const dmat3& linear, const dvec3& offset) {
+    const double volume = std::abs(glm::determinant(linear));
+    // Second moments map as positions do: their matrix is half the inertia's trace less the inertia.
+    const auto trace = [](const dmat3& m) { return m[0][0] + m[1][1] + m[2][2]; };
+    const dmat3 second = linear * (dmat3(trace(mass.inertia) / 2) - mass.inertia) * glm::transpose(linear);
+    return {volume * mass.mass, linear * mass.centre + offset, volume * (dmat3(trace(second)) - second)};
+}
+
 SolidMass primitive_mass(const SimpleShape& shape) {
     return std::visit(
         [](const auto& one) -> SolidMass {
@@ -67,15 +76,15 @@ SolidMass primitive_mass(const SimpleShape& shape) {
             } else if constexpr (std::is_same_v<Kind, Box>) {
                 const dvec3 h(one.half_extents), s = h * h;
                 const double m = 8 * h.x * h.y * h.z;
-                return {m, dvec3(0), diagonal(m / 3 * (s.y + s.z), m / 3 * (s.x + s.z), m / 3 * (s.x + s.y))};
+                return {m, dvec3(0), diagonal({m / 3 * (s.y + s.z), m / 3 * (s.x + s.z), m / 3 * (s.x + s.y)})};
             } else if constexpr (std::is_same_v<Kind, Cylinder>) {
                 const double r = static_cast<double>(one.radius), h = static_cast<double>(one.half_height);
                 const double m = tau / 2 * r * r * 2 * h, across = m * (r * r / 4 + h * h / 3);
-                return {m, dvec3(0), diagonal(across, m * r * r / 2, across)};
+                return {m, dvec3(0), diagonal({across, m * r * r / 2, across})};
             } else if constexpr (std::is_same_v<Kind, Ellipsoid>) {
                 const dvec3 r(one.radii), s = r * r;
                 const double m = tau * 2 / 3 * r.x * r.y * r.z;
-                return {m, dvec3(0), diagonal(m / 5 * (s.y + s.z), m / 5 * (s.x + s.z), m / 5 * (s.x + s.y))};
+                return {m, dvec3(0), diagonal({m / 5 * (s.y + s.z), m / 5 * (s.x + s.z), m / 5 * (s.x + s.y)})};
             } else {
                 return {};
             }

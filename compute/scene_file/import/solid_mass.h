@@ -20,6 +20,7 @@ struct Placed {  // a frame in another
     Placed operator*(const Placed& inner) const { return {*this * inner.position, glm::normalize(turn * inner.turn)}; }
 };
 Placed inverse(const Placed& frame);
+dmat3 diagonal(const dvec3& values);
 
 struct SolidMass {
     double mass = 0;   // kg
@@ -29,6 +30,8 @@ struct SolidMass {
 SolidMass sum_of(const SolidMass& a, const SolidMass& b);
 SolidMass placed_mass(const SolidMass& mass, const Placed& frame);
 SolidMass scaled_mass(SolidMass mass, double factor);
+// Of a solid that a linear map and a shift stretch and shear, of the same density.
+SolidMass stretched_mass(const SolidMass& mass, const dmat3& linear, const dvec3& offset);
 
 // Of density 1, in the frame of a shape (scree's: cylinders along y). Of planes 0; not of hulls.
 SolidMass primitive_mass(const SimpleShape& shape);

@@ -13,6 +13,7 @@ namespace scree::imports {
 
 namespace {
 
+constexpr double usual_density = 1000;                        // kg/m^3, as of a scene's bodies
 const dquat z_along_y(std::sqrt(0.5), std::sqrt(0.5), 0, 0);  // scree's cylinders lie along y, URDF's along z
 
 class Urdf {
@@ -30,6 +31,7 @@ private:
     void read_names(const host::XmlElement& root);
     std::string root_link(const host::XmlElement& root) const;
     void add_link(const std::string& name, std::size_t parent, const host::XmlElement* joint);
+    void finish_base();
     void read_joint(const host::XmlElement& tree, ModelBody& body);
     void read_axis(const host::XmlElement& tree, ModelJoint& joint);
     void read_link(const host::XmlElement& tree, ModelBody& body);
@@ -106,7 +108,7 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
         mesh.note("filename", "of another kind than .stl, .obj, .gltf and .glb is not drawn");
         return false;
     }
-    const auto solid = folder_.mesh(mesh.origin(), file, {scale[0], scale[1], scale[2]}, true);
+    const auto solid = folder_.mesh(mesh.origin(), file, {diagonal(dvec3(scale[0], scale[1], scale[2]))}, true);
     mesh.finish();
     if (solid->hulls.empty()) {
         if (like.solid) mesh.refuse("\"" + file + "\" has no convex hull: " + solid->flaw);
@@ -115,6 +117,7 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
     }
     mesh.note("", like.solid ? "collides as the convex hull of each of its groups"
                              : "is drawn as the convex hull of each of its groups");
+    if (like.solid) body.mass_of_shapes = sum_of(body.mass_of_shapes, placed_mass(scaled_mass(solid->mass, usual_density), at));
     for (const auto& corners : solid->hulls) {
         Geometry one = like;
         one.shape = Hull{corners};
@@ -168,6 +171,9 @@ void Urdf::read_shape(const host::XmlElement& tree, bool solid, ModelBody& body)
         shape.refuse("is no shape of URDF; known: box, sphere, cylinder, capsule, mesh");
     }
     shape.finish();
+    if (solid)
+        body.mass_of_shapes =
+            sum_of(body.mass_of_shapes, placed_mass(scaled_mass(primitive_mass(geometry.shape), usual_density), geometry.placed));
     body.geometries.push_back(std::move(geometry));
 }
 
@@ -217,10 +223,7 @@ void Urdf::read_joint(const host::XmlElement& tree, ModelBody& body) {
     }
     body.placed = origin(tree);
     if (type == 0) return;
-    if (type == 4) {
-        for (std::size_t above = body.parent; above != world_body; above = model_.bodies[above].parent)
-            if (model_.bodies[above].free || !model_.bodies[above].joints.empty())
-                element.refuse("a floating joint is read below links alone that nothing moves");
+    if (type == 4) {  // it joins nothing
         body.free = true;
         return;
     }
@@ -269,19 +272,37 @@ void Urdf::add_link(const std::string& name, std::size_t parent, const host::Xml
     body.parent = parent;
     read_link(tree, body);
     if (joint) read_joint(*joint, body);
-    if (!joint) {
-        const bool weightless = !(body.mass.mass > 0) || name == "world";
-        body.free = !weightless && options_.base == ImportedBase::free;
-        if (weightless && options_.base == ImportedBase::free && body.geometries.empty() && children_.contains(name) &&
-            children_.at(name).size() == 1)
-            body.free = attribute_of(*children_.at(name)[0].joint, "type") == "fixed";  // a footprint below the base
-        if (!weightless && options_.base == ImportedBase::usual)
-            notes_.add(body.origin, "",
-                       "is the root and fixed to the world; --base free lets it move, --base fixed says the same");
-    }
     model_.bodies.push_back(std::move(body));
     for (const Child& child : children_[name]) add_link(child.link, index, child.joint);
     --depth_;
+}
+
+// The root with all that fixed joints join to it stands still, or is free where the options say so and it has a mass.
+void Urdf::finish_base() {
+    ModelBody& base = model_.bodies[1];
+    double mass = 0;
+    bool shown = false, carries = false;  // whether it has geometry, and whether other links hang on it
+    std::vector<bool> joined(model_.bodies.size());
+    for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
+        const ModelBody& body = model_.bodies[b];
+        joined[b] = (b == 1 || joined[body.parent]) && body.joints.empty() && !body.free;
+        carries = carries || (!body.joints.empty() && joined[body.parent]);
+        if (!joined[b]) continue;
+        mass += body.mass.mass + body.mass_of_shapes.mass;
+        shown = shown || !body.geometries.empty();
+    }
+    const bool of_world = base.name == "world", wanted = options_.base == ImportedBase::free;
+    if (wanted && of_world) notes_.add(base.origin, "", "is the world by its name: it stays fixed, with what is fixed to it");
+    if (wanted && !of_world && !(mass > 0) && (shown || carries))
+        refuse(base.origin, "is to be free (--base free, base=\"free\"), but it and what is fixed to it have no mass");
+    base.free = wanted && !of_world && mass > 0;
+    if (base.free) return;
+    if (options_.base == ImportedBase::usual && !of_world && mass > 0)
+        notes_.add(
+            base.origin, "",
+            "is the root and fixed to the world; --base free lets it move, --base fixed says the same (in Python base=\"free\", "
+            "\"fixed\")");
+    base.shapeless = mass > 0 && !shown;
 }
 
 void Urdf::read_names(const host::XmlElement& root) {
@@ -341,6 +362,7 @@ SceneDocument Urdf::read(const host::XmlElement& root) {
     add_link(first, world_body, nullptr);
     if (model_.bodies.size() != links_.size() + 1)
         element.refuse(std::to_string(links_.size() + 1 - model_.bodies.size()) + " links hang on each other in a circle");
+    finish_base();
     SceneDocument document;
     document.scene = assemble(model_, options_, notes_);
     return document;

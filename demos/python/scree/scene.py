@@ -259,7 +259,7 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
     axes: "y-up" turns scenes whose z axis points up; "file" keeps their axes, with gravity along -z. base: the root link of a
     URDF, "fixed" or "free"; left out: fixed, with a note. ground: adds a plane that the lowest point touches. keyframe: of an
     MJCF file, by name or index: poses, speeds and controls. packages: folders of package://NAME/..., whose files may be read.
-    allow_outside: a scene file may name meshes outside of its folder.
+    allow_outside: the file may name meshes and other files outside of its folder.
 
     Raises OSError, and SceneError with the file and the JSON pointer, or the file and line.
     """

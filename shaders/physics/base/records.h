@@ -79,6 +79,8 @@ CONSTANT uint COMBINE_AVERAGE = 2u;
 CONSTANT uint COMBINE_MINIMUM = 3u;
 CONSTANT uint COMBINE_MULTIPLY = 4u;
 CONSTANT uint COMBINE_MAXIMUM = 5u;
+CONSTANT uint COMBINE_OVERRIDING_MINIMUM = 6u;
+CONSTANT uint COMBINE_OVERRIDING_AVERAGE = 7u;
 // How a body meets air and water (fields.h).
 struct Immersion {
     vec3 half_extents;  // of a box, or of an ellipsoid, of the body's volume, body axes, m

@@ -25,8 +25,8 @@ LAW float combined(uint rule_a, uint rule_b, uint usual, float a, float b) {
     uint rule = rule_a > rule_b ? rule_a : rule_b;
     if (rule == COMBINE_USUAL) rule = usual;
     if (rule == COMBINE_GEOMETRIC) return square_root(a * b);
-    if (rule == COMBINE_AVERAGE) return 0.5f * (a + b);
-    if (rule == COMBINE_MINIMUM) return smaller(a, b);
+    if (rule == COMBINE_AVERAGE || rule == COMBINE_OVERRIDING_AVERAGE) return 0.5f * (a + b);
+    if (rule == COMBINE_MINIMUM || rule == COMBINE_OVERRIDING_MINIMUM) return smaller(a, b);
     return rule == COMBINE_MULTIPLY ? a * b : larger(a, b);
 }
 
