@@ -234,7 +234,9 @@ public:
     void apply_torque(std::size_t body, vec3 torque);                           // N m
     void apply_impulse(std::size_t body, vec3 impulse, vec3 offset = vec3(0));  // N s, at the start of the step
     void apply_angular_impulse(std::size_t body, vec3 impulse);                 // N m s
-    void set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity);  // m/s, rad/s; dynamic and kinematic bodies
+    // m/s, rad/s. A dynamic body has it from the start of the step; that of a kinematic body changes evenly over the step,
+    // at the end of which it has it.
+    void set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity);
 
     // Sleep: quiet bodies fall asleep (Settings::sleeping), and wake when a restless body touches them, when their load
     // or support changes, or when a call above acts on them.
@@ -304,7 +306,7 @@ public:
     std::vector<std::size_t> first_part_rows() const;
 
     // Poses and velocities of many bodies, in one transfer each way; the last of several changes of one body counts. Bodies
-    // wake; a pose set of a body that is not dynamic wakes all. Throws std::out_of_range for an index, std::invalid_argument
+    // wake; a pose set of a body that is not dynamic wakes all. A velocity alone changes as by set_velocity. Throws std::out_of_range for an index, std::invalid_argument
     // for a body that is not there and for values out of range, naming the body; then changes nothing.
     void set_bodies(std::span<const BodyChange> changes);
     // Moves kinematic bodies to poses, each in a number of steps with constant velocities, which push what they meet; then

@@ -12,6 +12,7 @@
 #include "shaders/physics/extra/grab_spring.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/impact_state.h"
 #include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/mass_splitting.h"
@@ -164,7 +165,10 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         if (!state.fixed().redo) {
             const physics::Mass struck =
                 physics::scaled_mass(mass, begins ? 1.0f : physics::mass_scale(state.masses[body], properties));
-            state.velocities[body] = physics::apply_impulses(state.velocities[body], action, struck, state.fixed());
+            physics::Velocity velocity = physics::apply_impulses(state.velocities[body], action, struck, state.fixed());
+            if (physics::changes_velocity(action, properties))
+                velocity = physics::velocity_before_substeps(velocity, action, state.fixed());
+            state.velocities[body] = velocity;
         }
         physics::uint& rest = state.sleep_states[body];
         rest = sets ? physics::RESTARTS : physics::roused(rest, state.fixed().sleep_steps);
@@ -172,9 +176,16 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     }
 }
 
-void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
+void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
     if (state.counted().overflow) return;
+    const std::uint32_t first = pass & 1, left = pass >> 1;
     if (first != 0) list_moving_bodies(state);
+    for (std::size_t i = 0; i < state.fixed().actions; ++i) {
+        const physics::Action& action = state.actions[i];
+        if (!physics::changes_velocity(action, state.properties[action.body]) || !state.is_stepped(action.body)) continue;
+        physics::Velocity& velocity = state.velocities[action.body];
+        velocity = physics::velocity_in_substep(velocity, action, left, state.fixed());
+    }
     const std::vector<std::uint32_t>& bodies = state.movable_bodies;
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         if (first != 0) make_room_for_bodies(state, static_cast<std::size_t>(wide->lanes));
@@ -210,7 +221,10 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::vector<std::uint32_t>&driven = state.driven_bodies, &bodies = state.movable_bodies;
-    threads.for_each(driven.size(), [&](std::size_t k) { move(state, driven[k]); });
+    // At rest for a substep, on the way from one velocity to another, a body keeps every bit.
+    threads.for_each(driven.size(), [&](std::size_t k) {
+        if (physics::in_motion(state.velocities[driven[k]])) move(state, driven[k]);
+    });
     const WideStages* wide = wide_stages(threads.lanes());
     if (!wide) return threads.for_each(bodies.size(), [&](std::size_t k) { move(state, bodies[k]); });
     const WideTables tables = wide_tables(state, bodies);

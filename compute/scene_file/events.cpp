@@ -29,6 +29,12 @@ std::size_t present_joint(const std::vector<TimedEvent>& events, std::size_t eve
     return joint - lower;
 }
 
+// The way of a kinematic body while it stops, as a part of its velocity, s (shaders/physics/solve/driven.h). It takes up a
+// velocity with as much less way.
+float stopping_time(const World& world) {
+    return (0.5f - 0.5f / static_cast<float>(world.settings().substeps)) / world.settings().rate;
+}
+
 struct Performance {
     const std::vector<TimedEvent>& events;
     std::size_t index;
@@ -37,8 +43,10 @@ struct Performance {
     void operator()(const ImpulseEvent& event) const { world.apply_impulse(event.body, event.impulse, event.offset); }
     void operator()(const VelocityEvent& event) const { world.set_velocity(event.body, event.linear, event.angular); }
     void operator()(const GlideEvent& event) const {
-        const vec3 way = event.to - world.body(event.body).position;
-        world.set_velocity(event.body, way / event.duration, event.turn / event.duration);
+        const BodyState start = world.body(event.body);
+        const vec3 way = event.to - start.position - start.velocity * stopping_time(world);
+        const vec3 turn = event.turn - start.angular_velocity * stopping_time(world);
+        world.set_velocity(event.body, way / event.duration, turn / event.duration);
     }
     void operator()(const ExplosionEvent& event) const { world.explode(event.centre, event.radius, event.speed); }
     void operator()(const ReleaseEvent& event) const { world.remove_joint(present_joint(events, index, event.joint)); }
@@ -147,6 +155,7 @@ std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, con
         if (next.time < 0 && !under_way) continue;
         if (under_way) {
             glide->turn *= (next.time + glide->duration) / glide->duration;
+            glide->turn += world.body(glide->body).angular_velocity * stopping_time(world);
             glide->duration += std::exchange(next.time, 0.0f);
         }
         if (auto* release = std::get_if<ReleaseEvent>(&next.action)) release->joint -= released_below(release->joint);

@@ -124,7 +124,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     // solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t first = substep == 1, last = substep == substeps;
-        s.add("begin_substep", first);
+        s.add("begin_substep", first | static_cast<std::uint32_t>(substeps - substep) << 1);
         s.add("solve_contacts");
         if (features.joints) s.add("solve_joints");
         s.add("move_bodies");

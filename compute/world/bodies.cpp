@@ -184,6 +184,9 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     // The last body with a filter may be gone since, and with it the table.
     if (in.state.filters.empty()) std::erase_if(changed, [](const TableRange& range) { return range.table == Table::filters; });
     in.send(changed, before);
+    // What is dynamic wakes what it touches; what is not stirs nothing by itself.
+    if (std::any_of(firsts.begin(), firsts.end(), [&](std::size_t i) { return in.scene.bodies[i].motion != Motion::dynamic; }))
+        in.wake_copy_of(firsts.front());
     in.edits.clear();
     ++in.arrangements;
     ++in.changes;

@@ -87,6 +87,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         const std::uint32_t row = state.row_of(change.body);
         physics::Pose& pose = state.poses[row];
         physics::Velocity& velocity = state.velocities[row];
+        const physics::Velocity before = velocity;
         if (change.position && physics::is_quarantined(state.properties[row].motion)) {  // it begins anew
             state.properties[row].motion = static_cast<physics::uint>(scene.bodies[change.body].motion);
             velocity = {};
@@ -104,6 +105,13 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         state.sleep_states[row] = scene.bodies[change.body].motion == Motion::dynamic ? physics::RESTARTS : 0;
         arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
+        if (body.motion == Motion::kinematic && (change.velocity || change.angular_velocity)) {
+            physics::Action& action = change_velocity(change.body, before);
+            action.flags |= physics::ACTION_SETS_VELOCITY;
+            action.velocity = velocity.linear;
+            action.angular_velocity = velocity.angular;
+        }
+        if (change.position || change.orientation) jump_to_velocity(change.body);
         if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;
         woken.insert(copy_of(change.body));
         append(changed, StateEditor(state).place_parts(static_cast<std::uint32_t>(change.body)));
@@ -242,6 +250,7 @@ void World::set_motion(std::size_t body, Motion motion) {
     for (auto& grip : in.grips)
         if (grip && grip->body == body && motion != Motion::dynamic) grip.reset();
     if (motion == Motion::fixed) {
+        in.actions.erase(body);
         const std::uint32_t row = in.state.row_of(body);
         const TableRanges still{{Table::velocities, row, 1}};
         in.runner->download({{Table::poses, row, 1}, {Table::velocities, row, 1}});

@@ -62,6 +62,12 @@ void Events::set(const EventSettings& settings, const Scene& scene, const State&
     first_part_ = ~0u;
 }
 
+void Events::before_step(const State& state) {
+    velocities_ = state.velocities;
+    poses_.clear();
+    if (settings_.sensors && has_sensors(state)) poses_ = poses_before(state);
+}
+
 TableRanges Events::needed(const Scene& scene, const State& state) const {
     TableRanges ranges = body_ranges(state);
     if (settings_.contacts) {
@@ -332,9 +338,12 @@ void Events::tell_sensor(EventKind kind, const SensorOverlap& one, const std::ve
 
 void Events::compare_sensors(const Seen& seen, const Threads& threads) {
     if (!has_sensors(seen.state) && sensed_.empty()) return;
-    std::vector<SensorOverlap> now = overlaps_of_sensors(seen.state, threads), begun, ended;
+    auto [now, passed] = sensed_in_step(seen.state, poses_, threads);
+    std::vector<SensorOverlap> begun, ended;
     std::set_difference(now.begin(), now.end(), sensed_.begin(), sensed_.end(), std::back_inserter(begun));
+    std::set_difference(passed.begin(), passed.end(), sensed_.begin(), sensed_.end(), std::back_inserter(begun));
     std::set_difference(sensed_.begin(), sensed_.end(), now.begin(), now.end(), std::back_inserter(ended));
+    std::set_difference(passed.begin(), passed.end(), sensed_.begin(), sensed_.end(), std::back_inserter(ended));
     for (const SensorOverlap& one : begun) tell_sensor(EventKind::sensor_begin, one, seen.generations, seen.step);
     for (const SensorOverlap& one : ended) tell_sensor(EventKind::sensor_end, one, seen.generations, seen.step);
     sensed_ = std::move(now);

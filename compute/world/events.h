@@ -22,7 +22,7 @@ public:
     void set(const EventSettings& settings, const Scene& scene, const State& state);
     const EventSettings& settings() const { return settings_; }
     TableRanges needed(const Scene& scene, const State& state) const;  // from the runner, after each step
-    void before_step(const State& state) { velocities_ = state.velocities; }
+    void before_step(const State& state);
     // `arrangement`: a number that changes with the rows of bodies.
     void after_step(const Scene& scene, const State& state, const std::vector<std::uint32_t>& generations,
                     std::uint64_t arrangement, std::uint64_t step, const Threads& threads);
@@ -79,6 +79,7 @@ private:
     std::vector<Entry> before_, now_;
     std::unordered_map<Pair, std::uint32_t, HashOfPair> pairs_;  // that touch, and in how many contacts
     std::vector<physics::Velocity> velocities_;                  // before the step
+    std::vector<physics::Pose> poses_;                           // likewise, if there are sensors
     std::vector<std::uint8_t> bodies_;                           // by id
     std::vector<std::uint8_t> joints_;                           // by joint of the scene: broken
     std::vector<SensorOverlap> sensed_;

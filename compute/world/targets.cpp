@@ -72,6 +72,7 @@ void World::move_bodies(std::span<const BodyTarget> targets) {
     }
     for (std::size_t i = 0; i < targets.size(); ++i) {
         set_velocity(targets[i].body, ways[i].velocity, ways[i].angular_velocity);
+        in.jump_to_velocity(targets[i].body);  // or it would not be there in time
         in.arrivals[targets[i].body] = in.steps + static_cast<std::uint64_t>(targets[i].steps);
     }
 }
@@ -83,7 +84,7 @@ void World::Impl::stop_arrived() {
             continue;
         }
         physics::Action& action = actions[arrival->first];
-        action.flags |= physics::ACTION_SETS_VELOCITY;
+        action.flags = physics::ACTION_SETS_VELOCITY;
         action.velocity = action.angular_velocity = vec3(0);
         arrival = arrivals.erase(arrival);
     }

@@ -297,11 +297,31 @@ void World::apply_angular_impulse(std::size_t body, vec3 impulse) {
     interior_->action_on(body, impulse, impulse).angular_impulse += impulse;
 }
 void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity) {
-    physics::Action& action = interior_->action_on(body, velocity, angular_velocity, /* kinematic_too */ true);
+    Impl& in = *interior_;
+    physics::Action& action = in.action_on(body, velocity, angular_velocity, /* kinematic_too */ true);
+    if (in.scene.bodies[body].motion == Motion::kinematic) {
+        const std::uint32_t row = in.state.row_of(body);
+        in.runner->download({{Table::velocities, row, 1}});
+        in.change_velocity(body, in.state.velocities[row]);
+    }
     action.flags |= physics::ACTION_SETS_VELOCITY;
     action.velocity = velocity;
     action.angular_velocity = angular_velocity;
-    interior_->arrivals.erase(body);
+    in.arrivals.erase(body);
+}
+
+// Over the next step, from what it was before the first change.
+physics::Action& World::Impl::change_velocity(std::size_t body, const physics::Velocity& before) {
+    physics::Action& action = actions[body];
+    if ((action.flags & physics::ACTION_CHANGES_VELOCITY) != 0) return action;
+    action.flags |= physics::ACTION_CHANGES_VELOCITY;
+    action.velocity_before = before.linear;
+    action.angular_velocity_before = before.angular;
+    return action;
+}
+// In the next step it has at once the velocity that it is given.
+void World::Impl::jump_to_velocity(std::size_t body) {
+    if (const auto found = actions.find(body); found != actions.end()) found->second.flags &= ~physics::ACTION_CHANGES_VELOCITY;
 }
 
 void World::wake(std::size_t body) {

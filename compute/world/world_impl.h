@@ -131,6 +131,8 @@ struct World::Impl {
     std::string most_paired_body() const;       // for messages
     void require_body(std::size_t body) const;  // throws std::out_of_range for an index that none has, or a removed body
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
+    physics::Action& change_velocity(std::size_t body, const physics::Velocity& before);  // of a kinematic body
+    void jump_to_velocity(std::size_t body);
     BodyState body_state(std::size_t i) const;
     // Downloads these ranges of the tables.
     void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }

@@ -5,6 +5,7 @@
 
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/stages/lib/stage.glsl"
 
@@ -19,7 +20,9 @@ void main() {
     bool begins = sets || was_set(WORD(sleep_states, action.body));
     if (PARAMETERS.redo == 0u) {
         Mass struck = scaled_mass(mass, begins ? 1.0f : mass_scale(READ(masses, action.body), body));
-        velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, struck, PARAMETERS);
+        Velocity velocity = apply_impulses(velocities.at[action.body], action, struck, PARAMETERS);
+        if (changes_velocity(action, body)) velocity = velocity_before_substeps(velocity, action, PARAMETERS);
+        velocities.at[action.body] = velocity;
     }
     WORD(sleep_states, action.body) = sets ? RESTARTS : roused(WORD(sleep_states, action.body), PARAMETERS.sleep_steps);
     forces.at[action.body] = apply_forces(forces.at[action.body], action, mass);

@@ -27,10 +27,11 @@ TEST_CASE("a contact that shrinks to one point keeps its push and its friction, 
     was.friction = vec3(0.5f, 0, 0.25f);
     was.twist = 0.75f;
     for (const std::uint32_t count : {1u, 2u, 4u}) {
-        const Impulse now = warm_start_from(patch(count), was, matches_of(patch(count), patch(4), 0.1f));
+        const Impulse now = warm_start_from(patch(count), was, matches_of(patch(count), patch(4), 0.1f), false);
         INFO(count << " points");
         CHECK(now.normal.x == 4);
         CHECK(now.friction == was.friction);
         CHECK(now.twist == (count > 1 ? was.twist : 0));
     }
+    CHECK(warm_start_from(patch(1), was, matches_of(patch(1), patch(1), 0.1f), true).twist == was.twist);
 }

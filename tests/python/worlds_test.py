@@ -164,6 +164,29 @@ class Bulk(unittest.TestCase):
             world.step(-1)
         self.assertEqual(world.state_hash(), before)
 
+    def test_masks_have_the_length_of_what_they_choose_from(self):
+        scene, ids = pile(8)
+        world = scree.World(scene, backend="cpu")
+        several = scree.World(scene, backend="cpu", copies=2)
+        before = world.state_hash(), several.state_hash()
+        for wrong in (np.array([False, True, True]), np.zeros(0, dtype=bool), np.ones(10, dtype=bool), [True] * 3):
+            for one in (world, several):
+                for use in (lambda: one.set(wrong, velocity=(0, 9, 0)), lambda: one.apply(wrong, force=(0, 9, 0)),
+                            lambda: one.wake(wrong), lambda: one.set_material(wrong, friction=1), lambda: one.set_mass(wrong, 1),
+                            lambda: one.set_filter(wrong, {"category": 2}), lambda: one.set_motion(wrong, "fixed"),
+                            lambda: one.move(wrong, (0, 0, 0)), lambda: one.handles(wrong), lambda: one.touch_force(wrong),
+                            lambda: one.ids(wrong), lambda: one.ids(copies=wrong), lambda: one.remove(wrong)):
+                    with self.assertRaisesRegex(IndexError, "a mask of"):
+                        use()
+        with self.assertRaisesRegex(IndexError, r"a mask of the shape \(9, 2\)"):
+            several.set(np.ones((9, 2), dtype=bool), velocity=(0, 9, 0))
+        self.assertEqual((world.state_hash(), several.state_hash()), before)
+        mask = np.arange(9) == 3
+        world.set(mask, velocity=(0, 9, 0))
+        several.set(np.stack([mask, mask]), velocity=(0, 9, 0))
+        self.assertEqual(world.velocity[3, 1], 9)
+        np.testing.assert_array_equal(several.velocity[:, 3, 1], [9, 9])
+
     def test_bodies_come_and_go(self):
         scene, ids = pile(8)
         world = scree.World(scene, backend="cpu")

@@ -1,4 +1,5 @@
 // Sliding, spinning and riding along: worlds against closed forms.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -152,4 +153,81 @@ TEST_CASE("a contact that slides within a step by more than the half width of th
     REQUIRE(points_after(0.5f, 24) == 4);
     REQUIRE(points_after(0.5f, 36) == 0);
     REQUIRE(points_after(1.5f, 36) == 4);
+}
+
+namespace {
+
+// A ball that slides and spins on a plane: its speed and spin after `seconds`, by the ellipsoidal law of friction.h in small
+// steps. `arm`: of its spinning resistance, over the friction.
+struct SlidingBall {
+    double speed, rolling, spin;
+};
+SlidingBall slid_ball(SlidingBall ball, double mu, double arm, double radius, double seconds) {
+    const int steps = 4000;
+    const double dt = seconds / steps, gravity = 9.81, coupling = 0.6, inertia = 0.4 * radius * radius;
+    for (int k = 0; k < steps; ++k) {
+        const double slip = ball.speed - ball.rolling * radius, edge = ball.spin * arm;
+        if (slip < 1e-9 && edge < 1e-9) break;
+        double low = 0, high = 1, f = 0, t = 0;  // shares of the greatest force and moment: the gradient along (slip, edge)
+        for (int halving = 0; halving < 50; ++halving) {
+            t = 0.5 * (low + high);
+            const double x = (1 - t * t) / (1 + coupling * t * t);
+            f = std::sqrt(x);
+            (t * (1 + coupling * x) * slip < f * (1 + coupling * t * t) * edge ? low : high) = t;
+        }
+        ball.speed -= mu * gravity * f * dt;
+        ball.rolling += mu * gravity * f * radius / inertia * dt;
+        ball.spin = std::max(0.0, ball.spin - mu * gravity * arm * t / inertia * dt);
+    }
+    return ball;
+}
+World ball_on_plane(double mu, double arm, double radius, int substeps, vec3 velocity, float spin) {
+    Scene scene;
+    scene.bodies.push_back(plane(static_cast<float>(mu)));
+    Body ball{.shape = Sphere{static_cast<float>(radius)}, .position = {0, static_cast<float>(radius), 0}, .velocity = velocity};
+    ball.angular_velocity = vec3(0, spin, 0);
+    set_material(ball, {.friction = static_cast<float>(mu), .spinning_resistance = static_cast<float>(mu * arm)});
+    scene.bodies.push_back(ball);
+    Settings settings = awake();
+    settings.substeps = substeps;
+    return World(scene, settings, 1);
+}
+
+}  // namespace
+
+TEST_CASE("a ball's spinning resistance is Coulomb's at any size: its spin falls evenly, and ends") {
+    const double radius = 0.5, gravity = 9.81;
+    for (const double part : {1.0, 0.1, 0.02, 0.002})  // arm over radius
+        for (const double mu : {1.0, 0.2})
+            for (const int substeps : {4, 8, 16})
+                for (const double spin : {10.0, 0.5}) {
+                    const double rate = 2.5 * mu * part * gravity / radius, stop = spin / rate;
+                    const int half = static_cast<int>(std::min(5.0, stop / 2) * 60);
+                    if (half < 12) continue;
+                    CAPTURE(part, mu, substeps, spin);
+                    World world = ball_on_plane(mu, part * radius, radius, substeps, vec3(0), static_cast<float>(spin));
+                    world.step(half);
+                    const double lost = spin - static_cast<double>(world.body(1).angular_velocity.y);
+                    const double rounding = half * substeps * spin * 1e-7;
+                    CHECK(lost == Approx(rate * half / 60).epsilon(0.01).margin(rounding));
+                    if (stop > 10) continue;
+                    world.step(static_cast<int>(stop * 60) + 6 - half);
+                    CHECK(std::abs(world.body(1).angular_velocity.y) < 1e-3f);
+                }
+}
+
+TEST_CASE("a ball that slides and spins loses both as the limit surface says, whatever its spinning resistance") {
+    const double mu = 0.3, radius = 0.5, seconds = 0.4;
+    for (const double part : {1.0, 0.3, 0.1, 0.02})
+        for (const double spin : {20.0, 2.0})
+            for (const int substeps : {4, 8, 16}) {
+                CAPTURE(part, spin, substeps);
+                const SlidingBall right = slid_ball({6, 0, spin}, mu, part * radius, radius, seconds);
+                World world = ball_on_plane(mu, part * radius, radius, substeps, vec3(6, 0, 0), static_cast<float>(spin));
+                world.step(static_cast<int>(seconds * 60 + 0.5));
+                const BodyState ball = world.body(1);
+                CHECK(ball.velocity.x == Approx(right.speed).epsilon(0.01));
+                CHECK(spin - static_cast<double>(ball.angular_velocity.y) ==
+                      Approx(spin - right.spin).epsilon(0.02).margin(2e-4));
+            }
 }

@@ -1,7 +1,9 @@
 // Sensors: they find what overlaps them, awake or asleep, and push nothing.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "compute/world.h"
@@ -156,4 +158,83 @@ TEST_CASE("many sensors find what few would, and a restored world goes on with t
     restored.step(60);
     read(restored.take_events());
     CHECK(open.size() == restored.sensed().size());
+}
+
+namespace {
+
+// How often a sensor began and ended in 40 steps.
+std::pair<std::size_t, std::size_t> told_by(Scene scene, std::size_t sensor) {
+    scene.gravity = vec3(0);
+    World world(scene, {}, 1);
+    world.set_events({.sensors = true});
+    world.step(40);
+    const auto of_sensor = [sensor](const std::vector<Event>& events) {
+        return static_cast<std::size_t>(
+            std::count_if(events.begin(), events.end(), [&](const Event& event) { return event.a == sensor; }));
+    };
+    const std::vector<Event> events = world.take_events();
+    return {of_sensor(of_kind(events, EventKind::sensor_begin)), of_sensor(of_kind(events, EventKind::sensor_end))};
+}
+const std::pair<std::size_t, std::size_t> once{1, 1}, never{0, 0};
+
+}  // namespace
+
+TEST_CASE("a sensor tells of what passes through it within one step, once") {
+    const Body thin{.motion = Motion::fixed, .shape = Box{vec3(0.25f, 1, 1)}, .role = Role::sensor};
+    Compound dumb_bell;
+    dumb_bell.parts = {{.shape = Sphere{0.1f}, .position = {0, 0.4f, 0}}, {.shape = Sphere{0.1f}, .position = {0, -0.4f, 0}}};
+    for (const float speed : {20.0f, 60.0f, 300.0f})
+        for (int phase = 0; phase < 5; ++phase) {
+            const vec3 start(-6 - speed / 300 * static_cast<float>(phase), 0, 0), velocity(speed, 0, 0);
+            CAPTURE(speed, phase);
+            Scene scene;
+            scene.bodies = {thin, ball(start, velocity)};
+            CHECK(told_by(scene, 0) == once);
+            // Both at once, in many sensors, from the other side, and past it.
+            scene.bodies[1].velocity = velocity * 0.5f;
+            scene.bodies[0].motion = Motion::kinematic;
+            scene.bodies[0].velocity = velocity * -0.5f;
+            CHECK(told_by(scene, 0) == once);
+            scene.bodies = {thin, ball(start + vec3(0, 1.3f, 0), velocity)};
+            CHECK(told_by(scene, 0) == never);
+            scene.bodies = {thin, ball(start, velocity)};
+            for (int i = 0; i < 12; ++i) scene.bodies.push_back(gate({static_cast<float>(i), 20, 0}));
+            CHECK(told_by(scene, 0) == once);
+            // Each part of a compound, also of one that spins.
+            scene.bodies = {thin, {.shape = dumb_bell, .position = start, .velocity = velocity}};
+            CHECK(told_by(scene, 0) == std::pair<std::size_t, std::size_t>{2, 2});
+            // A sensor that a body carries past what stands still.
+            Compound carrier;
+            carrier.parts = {{.shape = Sphere{0.1f}},
+                             {.shape = Box{vec3(0.1f, 0.5f, 0.1f)}, .position = {0, 1, 0}, .role = Role::sensor}};
+            scene.bodies = {{.shape = carrier, .position = start, .velocity = velocity},
+                            {.motion = Motion::kinematic, .shape = Sphere{0.2f}, .position = {0, 1.2f, 0}}};
+            CHECK(told_by(scene, 0) == once);
+        }
+}
+
+TEST_CASE("a sensor tells nothing of what bounces off before it, or was put behind it") {
+    const Body wall{.motion = Motion::fixed, .shape = Box{vec3(0.05f, 2, 2)}};
+    const Body behind{.motion = Motion::fixed, .shape = Box{vec3(0.25f, 1, 1)}, .role = Role::sensor, .position = {0.4f, 0, 0}};
+    for (const float restitution : {0.0f, 1.0f})
+        for (const float speed : {20.0f, 100.0f, 300.0f})
+            for (int phase = 0; phase < 5; ++phase) {
+                CAPTURE(restitution, speed, phase);
+                Scene scene;
+                scene.bodies = {behind, wall, ball({-6 - speed / 300 * static_cast<float>(phase), 0, 0}, {speed, 0, 0})};
+                scene.bodies[2].restitution = restitution;
+                CHECK(told_by(scene, 0) == never);
+            }
+    Scene scene;
+    scene.gravity = vec3(0);
+    Compound two;
+    two.parts = {{.shape = Sphere{0.2f}, .position = {0, 0.3f, 0}}, {.shape = Sphere{0.2f}, .position = {0, -0.3f, 0}}};
+    scene.bodies = {gate(vec3(0)), ball({-3, 0, 0}), {.shape = two, .position = {-3, 2, 0}}};
+    World world(scene, {}, 1);
+    world.set_events({.sensors = true});
+    world.step();
+    world.set_bodies(
+        std::vector{BodyChange{.body = 1, .position = vec3(3, 0, 0)}, BodyChange{.body = 2, .position = vec3(3, 0.2f, 0)}});
+    world.step();
+    CHECK(world.take_events().empty());
 }

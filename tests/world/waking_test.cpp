@@ -229,3 +229,34 @@ TEST_CASE("a heap that sleeps and is struck is the same from tiny buffers and on
     }
     REQUIRE(cramped.buffer_growths() > 0);
 }
+
+TEST_CASE("a sleeper wakes and gives way to what is added into it, whatever that is") {
+    const auto wall = [](vec3 at_place) { return at(Box{vec3(0.25f)}, at_place, Motion::fixed); };
+    Compound two;
+    two.parts = {{.shape = Box{vec3(0.25f)}}, {.shape = Box{vec3(0.25f)}, .position = {3, 0, 0}}};
+    Mesh block;  // its face at x = -0.25
+    block.vertices = {{-0.25f, -1, -1}, {-0.25f, 1, -1}, {-0.25f, 1, 1}, {-0.25f, -1, 1}};
+    block.triangles = {{0, 2, 1}, {0, 3, 2}};
+    std::vector<std::vector<Body>> added{{wall({0.35f, 0.25f, 0})},
+                                         {at(Box{vec3(0.25f)}, {0.35f, 0.25f, 0}, Motion::kinematic)},
+                                         {at(two, {0.35f, 0.25f, 0}, Motion::fixed)},
+                                         {at(block, {0.35f, 0.25f, 0}, Motion::fixed)},
+                                         {at(Plane{{-1, 0, 0}, -0.1f}, vec3(0), Motion::fixed)},
+                                         {at(Box{vec3(0.25f)}, {9, 5, 0}), wall({0.35f, 0.25f, 0}), wall({7, 0, 0})}};
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        CAPTURE(i);
+        Scene scene;
+        scene.bodies = {ground(), at(Box{vec3(0.25f)}, {0, 0.25f, 0})};
+        World world(scene, {}, 1);
+        require_sleep(world, 1);
+        world.step(30);  // which are passed over
+        if (added[i].size() == 1)
+            world.add_body(added[i][0]);
+        else
+            world.add_bodies(added[i]);
+        world.step();
+        CHECK(!world.body(1).asleep);
+        world.step(240);
+        CHECK(world.body(1).position.x == Approx(-0.15f).margin(0.01f));
+    }
+}

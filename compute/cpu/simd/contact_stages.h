@@ -41,7 +41,8 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     }
     if (!none(matched)) {
         const Contact before = gather<Contact>(tables.contacts_before, Indices(choose(matched, pair.previous, Uint(0u))));
-        Impulse now = warm_start_from(contact, was, matches_of(contact, before, match_radius(contact, before, ta, tb)));
+        Impulse now = warm_start_from(contact, was, matches_of(contact, before, match_radius(contact, before, ta, tb)),
+                                      keeps_twist(before, ta, tb));
         now.separation = found.impulse.separation;
         found.impulse = choose_record(matched, now, found.impulse);
         found.load = choose(matched, load_since(before, was, ta, found.slot_a, tb, found.slot_b), found.load);

@@ -51,12 +51,14 @@ def triple(value: Any, name: str) -> Floats:
     return array
 
 
-def ids_of(ids: Any) -> Ids:
-    """Ids as (n,) int64, of one id, a sequence, or a mask of all bodies."""
+def ids_of(ids: Any, count: int, of: str = "bodies") -> Ids:
+    """Ids as (n,) int64, of one id, a sequence, or a mask of all `count`."""
     array = np.asarray(ids)
     if array.dtype == np.bool_:
         if array.ndim != 1:
             raise ValueError(f"ids: a mask has the shape (n,), not {array.shape}")
+        if array.size != count:
+            raise IndexError(f"ids: a mask of {array.size} for {count} {of}")
         array = np.flatnonzero(array)
     if array.size == 0:
         return np.zeros(0, dtype=np.int64)

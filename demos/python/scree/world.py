@@ -256,8 +256,8 @@ class World:
     def ids(self, bodies: Any = None, copies: Any = None) -> Ids:
         """(copies, bodies): the ids, in this world, of bodies of the scene in copies; without arguments of all."""
         each = len(self) // self.copies
-        body = np.arange(each) if bodies is None else ids_of(bodies)
-        copy = np.arange(self.copies) if copies is None else ids_of(copies)
+        body = np.arange(each) if bodies is None else ids_of(bodies, each)
+        copy = np.arange(self.copies) if copies is None else ids_of(copies, self.copies, "copies")
         for name, given, most in (("body", body, each), ("copy", copy, self.copies)):
             if given.size and (given.min() < 0 or given.max() >= most):
                 raise IndexError(f"{name} {given.max() if given.max() >= most else given.min()} of {most}")
@@ -276,7 +276,7 @@ class World:
                 raise ValueError(f"reset: a mask of the shape {which.shape} for {self.copies} copies")
             mask = which.copy()
         else:
-            mask[ids_of(which)] = True
+            mask[ids_of(which, self.copies, "copies")] = True
         self._native.reset(mask)
 
     def state_hashes(self) -> typing.List[str]:
@@ -300,15 +300,16 @@ class World:
         """Wakes all bodies of a copy in the next step."""
         self._native.wake_copy(copy)
 
-    @staticmethod
-    def _in_a_row(ids: Any, values: Tuple[Optional[Any], ...]) -> Tuple[Ids, typing.List[Optional[Any]]]:
+    def _in_a_row(self, ids: Any, values: Tuple[Optional[Any], ...]) -> Tuple[Ids, typing.List[Optional[Any]]]:
         """Ids of (copies, k), and their values, one after the other; others as they are."""
         array = np.asarray(ids)
         if array.ndim != 2 or array.size == 0:
-            return ids_of(array), list(values)
+            return ids_of(array, len(self)), list(values)
         shape = array.shape
         if array.dtype == np.bool_:
-            return ids_of(array.reshape(-1)), list(values)
+            if shape != (self.copies, len(self) // self.copies):
+                raise IndexError(f"ids: a mask of the shape {shape} for {self.copies} copies of {len(self) // self.copies} bodies")
+            return ids_of(array.reshape(-1), len(self)), list(values)
 
         def flat(value: Optional[Any]) -> Optional[Any]:
             if value is None:
@@ -319,7 +320,7 @@ class World:
             except (ValueError, IndexError):
                 raise ValueError(f"has the shape {wide.shape}, for ids of the shape {shape}") from None
 
-        return ids_of(array.reshape(-1)), [flat(value) for value in values]
+        return ids_of(array.reshape(-1), len(self)), [flat(value) for value in values]
 
     @property
     def tables(self) -> Tables:
@@ -330,7 +331,8 @@ class World:
             angular_velocity: Optional[Any] = None) -> None:
         """Sets poses and velocities of many bodies in one transfer: (n, 3) and (n, 4), or one row for all.
 
-        ids: (n,), one id, a mask of all bodies, or (copies, k) as of ids(), with values (copies, k, 3). Bodies wake. Raises IndexError for an id, ValueError for a body that is
+        ids: (n,), one id, a mask of all bodies, or (copies, k) as of ids(), with values (copies, k, 3). Bodies wake. The velocity of
+        a kinematic body changes evenly over the next step. Raises IndexError for an id or a mask of another length, ValueError for a body that is
         not there and for values out of range, and then changes nothing.
         """
         named, (position, orientation, velocity, angular_velocity) = self._in_a_row(
@@ -372,7 +374,7 @@ class World:
 
     def handles(self, ids: Any) -> Ids:
         """(n, 2): id and generation, which name a body for its whole life, while its id may be given to another one."""
-        return self._native.handles(ids_of(ids))
+        return self._native.handles(ids_of(ids, len(self)))
 
     def are_valid(self, handles: Any) -> npt.NDArray[np.bool_]:
         """(n,): whether the bodies of (n, 2) handles have not been removed."""
@@ -383,22 +385,22 @@ class World:
         if ids is None:
             self._native.wake_all()
         else:
-            self._native.wake(ids_of(ids))
+            self._native.wake(ids_of(ids, len(self)))
 
     def set_material(self, ids: Any, **fields: Any) -> None:
         """Changes friction, restitution, rolling_resistance and the like from the next step on; what is not given stays."""
         require_keys(fields, _native.keys("material"), "a material")
-        self._native.set_material(ids_of(ids), json_text(fields, "/material"))
+        self._native.set_material(ids_of(ids, len(self)), json_text(fields, "/material"))
 
     def set_mass(self, ids: Any, mass: Any) -> None:
         """Changes masses, kg (one for all, or one each), and moments of inertia in proportion, from the next step on."""
-        named = ids_of(ids)
+        named = ids_of(ids, len(self))
         for body, kilograms in zip(named, np.broadcast_to(np.asarray(mass, dtype=np.float32), len(named))):
             self._native.set_mass(int(body), float(kilograms))
 
     def move(self, ids: Any, position: Any, orientation: Optional[Any] = None, steps: int = 1) -> None:
         """Moves kinematic bodies to poses, (n, 3) and (n, 4), within that many steps, pushing what they meet; then they stand."""
-        named = ids_of(ids)
+        named = ids_of(ids, len(self))
         turn = self.orientation[named] if orientation is None else vectors(orientation, len(named), 4, "orientation")
         self._native.move(named, vectors(position, len(named), 3, "position"), np.ascontiguousarray(turn), steps)
 
@@ -409,12 +411,12 @@ class World:
 
     def set_filter(self, ids: Any, filter: Filter) -> None:
         """Changes which bodies collide, from the next step on; wakes all."""
-        for body in ids_of(ids):
+        for body in ids_of(ids, len(self)):
             self._native.set_filter(int(body), json_text(filter, "/filter"))
 
     def set_motion(self, ids: Any, motion: str) -> None:
         """Makes bodies "dynamic", "fixed" or "kinematic" from the next step on."""
-        for body in ids_of(ids):
+        for body in ids_of(ids, len(self)):
             self._native.set_motion(int(body), motion)
 
     def exclude(self, a: int, b: int, excluded: bool = True) -> None:
@@ -451,7 +453,7 @@ class World:
 
     def touch_force(self, ids: Any) -> Floats:
         """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts."""
-        return self._native.touch_forces(ids_of(ids))
+        return self._native.touch_forces(ids_of(ids, len(self)))
 
     def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False,
                    sensors: bool = True) -> None:
@@ -489,19 +491,19 @@ class World:
         (height, width, 3) give (height, width) hits.
         """
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.cast_rays(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1))).reshape(shape).view(np.recarray)
+        return self._native.cast_rays(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape).view(np.recarray)
 
     def rays_hit(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True,
                  copy: Any = 0) -> npt.NDArray[np.bool_]:
         """(n,): whether each ray hits anything; otherwise as cast_rays, and faster."""
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.rays_hit(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1))).reshape(shape)
+        return self._native.rays_hit(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape)
 
     def cast_rays_through(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES,
                           solid: bool = True, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """The first hit of each body and part, near ones first: (starts, hits), of ray i hits[starts[i]:starts[i + 1]]."""
         rays, _ = self._rays(origins, directions, reach)
-        starts, hits = self._native.cast_rays_through(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1)))
+        starts, hits = self._native.cast_rays_through(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies"))
         return starts, hits.view(np.recarray)
 
     @staticmethod
@@ -528,13 +530,13 @@ class World:
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
         return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask,
-                                        ids_of(copy)).view(np.recarray)
+                                        ids_of(copy, self.copies, "copies")).view(np.recarray)
 
     def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
         place = np.atleast_2d(np.asarray(points, dtype=np.float32))
         place = vectors(place, len(place), 3, "points")
-        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask, ids_of(copy)).view(np.recarray)
+        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask, ids_of(copy, self.copies, "copies")).view(np.recarray)
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                  mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
@@ -542,7 +544,7 @@ class World:
         place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
-        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask, ids_of(copy))
+        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask, ids_of(copy, self.copies, "copies"))
         return starts, parts.view(np.recarray)
 
     # ---- files

@@ -143,6 +143,7 @@ struct BodyForces {
 
 // User action on a body in one step; at most one record per body (the host sums).
 CONSTANT uint ACTION_SETS_VELOCITY = 1u;
+CONSTANT uint ACTION_CHANGES_VELOCITY = 2u;  // of a kinematic body, evenly over the step (driven.h)
 struct Action {
     uint body;
     uint flags;  // ACTION_*
@@ -159,6 +160,10 @@ struct Action {
     float pad6;
     vec3 angular_velocity;  // rad/s
     float pad7;
+    vec3 velocity_before;  // m/s, with ACTION_CHANGES_VELOCITY
+    float pad8;
+    vec3 angular_velocity_before;  // rad/s
+    float pad9;
 };
 
 // A damped spring from an anchor on a body to a target, while the user holds the body (grab_spring.h).

@@ -70,8 +70,13 @@ LAW bool rebounds_across(ContactImpact was) {
 LAW float component(vec4 v, uint k) {
     return choose(k == 0u, v.x, choose(k == 1u, v.y, choose(k == 2u, v.z, v.w)));
 }
+// Whether a contact of one point inherits its twist: that of an edge or a face it could not take back, and without a material
+// it has hardly any.
+LAW bool keeps_twist(Contact before, BodyProperties a, BodyProperties b) {
+    return before.count == 1u && ((a.flags | b.flags) >> ROW_SURFACE_SHIFT) != 0u;
+}
 // Impulses of the matching points; friction only if some normal impulse is left, projected onto the new tangent plane.
-LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
+LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches, bool point_twists) {
     Impulse impulse = no_impulse(now.center_offset);
     for (int k = 0; k < 4; ++k) {
         bool matched = matches[k] != NONE;
@@ -83,8 +88,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     impulse.impact_energy = was.impact_energy;
     impulse.flight_energy = was.flight_energy;
     bool bears = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f;
-    // A single point has no torsional friction that would reduce an inherited twist.
-    bool twists = bears && now.count > 1u;
+    bool twists = bears && (now.count > 1u || point_twists);
     impulse.friction = choose(bears, was.friction - now.normal * dot3(was.friction, now.normal), impulse.friction);
     impulse.stretch = choose(bears, was.stretch - now.normal * dot3(was.stretch, now.normal), impulse.stretch);
     impulse.rolling = choose(bears, was.rolling, impulse.rolling);

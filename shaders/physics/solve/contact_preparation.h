@@ -48,7 +48,7 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     else
         matches = matches_of(prepared.contact, before, match_radius(prepared.contact, before, a, b));
     vec4 separation = prepared.impulse.separation;
-    prepared.impulse = warm_start_from(prepared.contact, was, matches);
+    prepared.impulse = warm_start_from(prepared.contact, was, matches, keeps_twist(before, a, b));
     prepared.impulse.separation = separation;
     prepared.contact.unrest = before.unrest;
     return prepared;

@@ -182,8 +182,10 @@ struct PatchImpulse {
     float twist;
 };
 // The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
-// `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2.
-LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold) {
+// `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2. `resists`:
+// the impulse is on the surface at once. A step of spin on an arm that is short beside the body is a small part of the
+// limit, and spinning resistance would act like a viscous one. (With that for every patch, columns of tables on feet fell.)
+LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold, bool resists) {
     // Squares are of quotients by the friction limit: the squares of impulses on grains leave the range of a float.
     vec3 held = before.friction * hold;
     float area = arm * arm, x = smaller(dot3(held, held), 1.0f), y = before.twist * hold;
@@ -199,7 +201,8 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
     vec3 quotient = after.friction * hold;
     float turned = after.twist * hold, squared = smaller(p * dot3(quotient, quotient) + q * turned * turned, 1.0e30f);
-    float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
+    float scale = bound * inverse_square_root(larger(squared, 1.0e-30f) * bound);
+    scale = choose(resists || squared > bound, scale, 1.0f);
     after.friction = flush_tiny(after.friction * scale);
     after.twist = flush_tiny(after.twist * scale);
     return after;
@@ -208,12 +211,12 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
 LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool biased, Parameters parameters) {
     float most = c.friction * normal;
     PatchImpulse before, after;
-    before.friction = s.impulse.friction;
-    before.twist = s.impulse.twist;
-    after.twist = before.twist;
-    VelocityPair v = s.pair_velocity;
     // What stops the spin, then what stops the slip that is left; without a normal impulse, nothing.
     bool holds = most > 0.0f, twists = c.twist_arm > 0.0f, slips = c.tyre_slip > 0.0f;
+    before.friction = s.impulse.friction;
+    before.twist = choose(twists, s.impulse.twist, 0.0f);  // of a patch that has lost its arm nothing would take it back
+    after.twist = before.twist;
+    VelocityPair v = s.pair_velocity;
     Anchor anchor = anchor_of_pass(c, biased, parameters);
     float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
     vec3 response_a = c.normal, response_b = c.normal;
@@ -264,7 +267,8 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         float undone = stopping * k.unit;
         k.slip1 = k.slip1 - (dot3(k.row1.angular_a, response_a) + dot3(k.row1.angular_b, response_b)) * undone;
         k.slip2 = k.slip2 - (dot3(k.row2.angular_a, response_a) + dot3(k.row2.angular_b, response_b)) * undone;
-        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold);
+        bool resists = (c.flags & CONSTRAINT_ROLLS_ONLY) != 0u && !(anchor.give > 0.0f);  // spinning, with its own arm
+        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold, resists);
         after.friction = choose(slides, sliding.friction, after.friction);
         float turned_back = choose(slides && twists, sliding.twist - after.twist, 0.0f);
         after.twist = after.twist + turned_back;

@@ -7,12 +7,21 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
 
 // after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
+
+// The velocity in a substep of the body of an action. `left`: substeps that follow.
+void drive_body(uint i, uint left) {
+    if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
+    Action action = actions.at[i];
+    if (!changes_velocity(action, READ(properties, action.body))) return;
+    velocities.at[action.body] = velocity_in_substep(READ(velocities, action.body), action, left, PARAMETERS);
+}
 
 // Applies warm starts (with the previous relax pass), forces, damping and grab springs, and updates the split state.
 void begin_body(uint i, bool first) {
