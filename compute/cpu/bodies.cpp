@@ -115,6 +115,7 @@ void move(State& state, std::size_t i) {
         state.forces[i].impacts = physics::impacts_of(sum.weight, properties);
         if (sum.weight > 0) state.impact_debts[i] = sum.normal_impulse;
     }
+    velocity = physics::held_velocity(velocity, state.fixed());
     physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     const bool sound = physics::is_sound(after.pose) && physics::is_sound(after.velocity);
     if (!sound) {

@@ -33,6 +33,13 @@ physics::MotionPath course(const State& state, std::uint32_t row, float until) {
     return row == body ? whole : physics::path_of_part(state.properties[row], state.part_in(row), whole);
 }
 
+physics::Way way(const State& state, std::uint32_t row, float until) {
+    const std::uint32_t body = state.body_of(row);
+    const float reach = physics::reach_of(state.properties[row]);
+    return physics::way_of(row == body ? reach : reach + physics::length3(state.part_in(row).position),
+                           state.bounds[body].sweep.position, state.poses[body].position, until);
+}
+
 // Pairs of which a body was fast.
 void list_fast_pairs(State& state, const Threads& threads) {
     const auto is_fast = [&](std::uint32_t row) { return physics::stop_of(state.bounds[state.body_of(row)].sweep) <= 1; };
@@ -126,9 +133,12 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
                                               state.properties[bodies[side]], state.bounds[bodies[1 - side]].sweep.struck,
                                               state.properties[bodies[1 - side]], state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
+        const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
+        if (physics::ways_pass(way(state, rows[0], stops[0]), way(state, rows[1], stops[1]),
+                               physics::touch_of(ta, tb, state.fixed())))
+            return;
         const auto joined = [&](int side) { return state.properties[bodies[side]].joints != physics::NONE; };
         const bool only_joined = (!clamps[0] || joined(0)) && (!clamps[1] || joined(1));
-        const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
         const physics::Impact impact = physics::impact_of(
             ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]),
             physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1], only_joined),

@@ -64,9 +64,9 @@ unsigned finish(State& state, std::size_t i) {
     velocity.linear = physics::flush_tiny(velocity.linear + sum.change.linear);
     velocity.angular = physics::flush_tiny(velocity.angular + sum.change.angular);
     unsigned marks = sum.weight != 0 ? carries_contacts : 0u;
-    if (!physics::is_sound(velocity)) marks |= is_unsound;
     if (physics::is_spin_limited(velocity, state.fixed())) marks |= is_spin_limited;
     velocity = physics::held_velocity(velocity, state.fixed());
+    if (!physics::is_sound(velocity)) marks |= is_unsound;
     if (physics::was_fast(state.properties[i], state.bounds[i].sweep, state.poses[i])) marks |= was_fast;
     return marks;
 }

@@ -20,7 +20,7 @@ inline constexpr auto table<Settings> = table_of(
           "Greatest distance at which speculative contacts are made; 0.04 half widths if less"),
     field("restitution_threshold", &Settings::restitution_threshold, at_least(0), "m/s",
           "Impact speed below which restitution is 0; at least that of a fall in two steps along the normal"),
-    field("max_speed", &Settings::max_speed, above(0, 1e4), "m/s", "Speed to which velocities are clamped"),
+    field("max_speed", &Settings::max_speed, above(0, 1e4), "m/s", "Speed to which velocities are clamped; within a step a body moves at twice that at most"),
     field("max_turn", &Settings::max_turn, above(0, 1.57), "rad", "Rotation per substep to which angular velocities are clamped"),
     field("sleeping", &Settings::sleeping, "Bodies at rest sleep"),
     field("sleep_speed", &Settings::sleep_speed, between(1e-6, 10), "m/s", "Speed below which a body is quiet"),

@@ -221,6 +221,12 @@ void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& bo
     const MassProperties mass = mass_properties(body);
     properties.inverse_mass = 1 / mass.mass;
     properties.inverse_inertia = vec3(1 / mass.inertia.x, 1 / mass.inertia.y, 1 / mass.inertia.z);
+    // In world axes the tensor of a thinner needle is rounding: about its cross axes, contacts at its ends had no mass or a
+    // negative one. So about its own axis it counts as a little thicker.
+    constexpr float most_slender = 1e6f;
+    const float most =
+        most_slender * std::min({properties.inverse_inertia.x, properties.inverse_inertia.y, properties.inverse_inertia.z});
+    properties.inverse_inertia = glm::min(properties.inverse_inertia, vec3(most));
 }
 
 void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {

@@ -184,6 +184,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
         if (is_run_interrupted(options)) {
+            complete_outputs();
             checkpoints.write(world);
             return false;
         }
@@ -317,6 +318,7 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
         adviser.emplace(world, commanded, sees_contacts);
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
+    complete_outputs();
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
     finish_pictures(pictures, report);
     records.finish();  // an interrupted run has them, too

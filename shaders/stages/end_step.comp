@@ -37,6 +37,8 @@ void main() {
     Velocity velocity = READ(velocities, i);
     velocity.linear = flush_tiny(velocity.linear + sum.change.linear);
     velocity.angular = flush_tiny(velocity.angular + sum.change.angular);
+    bool limited = is_spin_limited(velocity, PARAMETERS);
+    velocity = held_velocity(velocity, PARAMETERS);
     bool moved = READ(forces, i).kept != UNSOUND;
     if (!moved || !is_sound(velocity)) {
         properties.at[i].motion = MOTION_QUARANTINED;
@@ -47,8 +49,7 @@ void main() {
         atomicAdd(COUNTS.quarantined, 1u);
         return;
     }
-    if (is_spin_limited(velocity, PARAMETERS)) atomicAdd(COUNTS.spin_limited, 1u);
-    velocity = held_velocity(velocity, PARAMETERS);
+    if (limited) atomicAdd(COUNTS.spin_limited, 1u);
     float pace = pace_of(body, velocity, PARAMETERS);
     WORD(sleep_states, i) =
         sleep_state_after(WORD(sleep_states, i), pace, sum.weight, least_quiet_beside(i), PARAMETERS.sleep_steps);

@@ -28,6 +28,12 @@ void main() {
     bool clamps_a = may_clamp(stop_a, struck_a, ta, struck_b, tb, points);
     bool clamps_b = may_clamp(stop_b, struck_b, tb, struck_a, ta, points);
     if (!clamps_a && !clamps_b) return;
+    float reach_a = row_a == a ? reach_of(ta) : reach_of(READ(properties, row_a)) + length3(part_in(row_a).position);
+    float reach_b = row_b == b ? reach_of(tb) : reach_of(READ(properties, row_b)) + length3(part_in(row_b).position);
+    if (ways_pass(way_of(reach_a, bounds.at[a].sweep.position, READ(poses, a).position, stop_a),
+                  way_of(reach_b, bounds.at[b].sweep.position, READ(poses, b).position, stop_b),
+                  touch_of(READ(properties, row_a), READ(properties, row_b), PARAMETERS)))
+        return;
     bool joined = (!clamps_a || ta.joints != NONE) && (!clamps_b || tb.joints != NONE);
     MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);
     MotionPath cb = path_of(tb, bounds.at[b].sweep.position, bounds.at[b].sweep.orientation, READ(poses, b), stop_b);

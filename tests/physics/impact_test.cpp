@@ -217,3 +217,39 @@ TEST_CASE("a body that waits keeps its energy") {
     REQUIRE(after.velocity.angular == end.angular);
     REQUIRE(clamp_motion(sweep, there, end, BodyProperties{}, BodyForces{}, 0.25f).velocity.linear == end.linear);
 }
+
+// Against many points of both ways.
+TEST_CASE("ways pass each other where their spheres stay apart all along") {
+    tests::Noise noise(4);
+    int passing = 0, meeting = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const float until[2] = {i % 3 == 0 ? 0.4f + 0.5f * noise() * noise() : 2,
+                                i % 4 == 0 ? 0.1f + 0.9f * noise() * noise() : 1};
+        Way ways[2];
+        for (int k = 0; k < 2; ++k)
+            ways[k] = way_of(0.05f + 0.2f * std::abs(noise()), noise.vector(), noise.vector() * 3.0f, until[k]);
+        float least = 1e30f;
+        for (int step = 0; step <= 2000; ++step) {
+            const float t = static_cast<float>(step) / 2000;
+            const auto at = [&](const Way& way) { return way.start + way.way * std::min(t, way.until); };
+            least = std::min(least, length3(at(ways[1]) - at(ways[0])));
+        }
+        const float room = ways[0].reach + ways[1].reach;
+        CAPTURE(i, least, room);
+        if (least > 1.002f * room + 2 * touch + 0.003f) {
+            CHECK(ways_pass(ways[0], ways[1], touch));
+            ++passing;
+        } else if (least < room + touch) {
+            CHECK_FALSE(ways_pass(ways[0], ways[1], touch));
+            ++meeting;
+        }
+    }
+    CHECK(passing > 500);
+    CHECK(meeting > 500);
+}
+
+TEST_CASE("nothing passes a plane by its size") {
+    const Way down = way_of(reach_of(ball), vec3(5, 3, 0), vec3(5, -3, 0), 1),
+              lies = way_of(reach_of(ground), vec3(0), vec3(0), 1);
+    CHECK_FALSE(ways_pass(down, lies, touch));
+}

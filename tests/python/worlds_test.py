@@ -443,6 +443,36 @@ class Threads(unittest.TestCase):
             run.send_signal(signal.SIGINT)
             self.assertEqual(run.communicate(timeout=20)[0], "off True True\n")
 
+    def test_an_interrupt_is_heard_during_a_long_step(self):
+        code = ("import scree, time\n"
+                "w = scree.World(scree.demo('pile', 20000), backend='cpu', threads=1, substeps=64, sleeping=False)\n"
+                "print('on', flush=True)\n"
+                "try: w.step(1000)\n"
+                "except KeyboardInterrupt: print('off', flush=True)\n"
+                "before = w.steps; w.step(); print(w.steps == before + 1)\n")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as run:
+            self.assertEqual(run.stdout.readline(), "on\n")
+            time.sleep(.5)
+            begin = time.monotonic()
+            run.send_signal(signal.SIGINT)
+            self.assertEqual(run.stdout.readline(), "off\n")
+            self.assertLess(time.monotonic() - begin, 1)
+            self.assertEqual(run.communicate(timeout=300)[0], "True\n")
+
+    def test_an_interrupt_that_nobody_handles_ends_python_during_a_long_step(self):
+        code = ("import scree\n"
+                "w = scree.World(scree.demo('pile', 20000), backend='cpu', threads=1, substeps=64, sleeping=False)\n"
+                "print('on', flush=True)\n"
+                "w.step(1000)\n")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+            self.assertEqual(run.stdout.readline(), "on\n")
+            time.sleep(.5)
+            begin = time.monotonic()
+            run.send_signal(signal.SIGINT)
+            self.assertIn("KeyboardInterrupt", run.communicate(timeout=300)[1])
+            self.assertLess(time.monotonic() - begin, 2)
+            self.assertEqual(run.returncode, -signal.SIGINT)
+
     def test_a_bar_shows_progress(self):
         code = ("import scree\n"
                 "from scree import _progress\n"

@@ -9,25 +9,25 @@
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/in_process.h"
-#include "compute/scene_file/scene_json.h"
 #include "compute/step/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
+#include "tests/world/poisoned.h"
 
 using namespace scree;
 
 namespace {
 
-// Two boxes on a spring that no float can hold, which fuzzing found, and far from them a heap.
-Scene torn_apart(bool with_spring = true) {
-    Scene scene = scene_from_json(R"({"bodies": [
-        {"name": "box", "shape": {"box": {"half_extents": [0.5, 0.5, 0.5]}}, "position": [0.8, 0.51, 0],
-         "orientation": [0, 0.25881904, 0, 0.9659258], "rolling_resistance": 0.005},
-        {"name": "slab", "shape": {"box": {"half_extents": [0.6, 0.15, 0.4]}}, "position": [2.4, 0.16000001, 0],
-         "orientation": [-0.0, -0.17364818, -0.0, 0.9848077], "rolling_resistance": 0.005}],
-        "joints": [{"kind": {"slider": {"spring": {"stiffness": 1000000000000.0, "damping": 10, "rest": 1000000.0}}}, "a": 0, "b": 1}]})")
-                      .scene;
-    if (!with_spring) scene.joints.clear();
+// Two boxes on a slider, and far from them a heap.
+Scene torn_apart(bool with_joint = true) {
+    Scene scene;
+    scene.bodies.push_back({.name = "box", .shape = Box{vec3(0.5f)}, .position = {0.8f, 0.51f, 0}});
+    scene.bodies.push_back({.name = "slab", .shape = Box{{0.6f, 0.15f, 0.4f}}, .position = {2.4f, 0.16f, 0}});
+    Joint slider;
+    slider.kind = Slider{};
+    slider.a = 0;
+    slider.b = 1;
+    if (with_joint) scene.joints.push_back(slider);
     for (Body& body : tests::heap(40).bodies) {
         body.position += vec3(300, 0, 0);
         scene.bodies.push_back(body);
@@ -44,39 +44,17 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps) {
     return hashes;
 }
 
-// A runner one of whose steps finds a body beyond all scenes, as a law that fails would leave it: no scene without joints is
-// known to.
-template <class Base>
-class Poisoned : public Base {
-public:
-    template <class... Arguments>
-    Poisoned(std::size_t body, float height, Arguments&&... arguments)
-        : Base(std::forward<Arguments>(arguments)...), body_(body), height_(height) {}
-    void attach(State& state) override {
-        state_ = &state;
-        Base::attach(state);
-    }
-    bool step() override {
-        const std::uint32_t row = state_->row_of(body_);
-        const bool is_here = row != physics::NONE && (state_->presence.empty() || state_->is_owned(row));
-        if (++steps_ == poisoned_step && is_here) state_->poses[row].position.y = height_;
-        if (steps_ == poisoned_step) was_share = state_->is_share();
-        return Base::step();
-    }
-    static constexpr int poisoned_step = 30;
-    bool was_share = false;
-
-private:
-    std::size_t body_;
-    float height_;
-    State* state_ = nullptr;
-    int steps_ = 0;
-};
+// Both boxes are found beyond all scenes in the first step.
+template <class Base, class... Arguments>
+std::unique_ptr<Runner> tearing(Arguments&&... arguments) {
+    return std::make_unique<tests::Poisoned<Base>>(std::vector<std::size_t>{0, 1}, 1, std::numeric_limits<float>::infinity(),
+                                                   std::forward<Arguments>(arguments)...);
+}
 
 }  // namespace
 
-TEST_CASE("bodies that a spring makes infinite are put into quarantine, and the others go on as without them", "[world]") {
-    World world(torn_apart(), {}, 1), calm(torn_apart(false), {}, 1);
+TEST_CASE("bodies that become infinite are put into quarantine, and the others go on as without them", "[world]") {
+    World world(torn_apart(), {}, tearing<ReferenceRunner>(1)), calm(torn_apart(false), {}, 1);
     world.step(60);
     calm.step(60);
     const std::vector<Quarantine> found = world.quarantines();
@@ -89,7 +67,6 @@ TEST_CASE("bodies that a spring makes infinite are put into quarantine, and the 
         const BodyState state = world.body(k);
         CHECK(state.quarantined);
         CHECK(state.exists);
-        CHECK(glm::length(state.position) < 1e15f);  // false for NaN; the substeps before may have flung it
         CHECK(state.velocity == vec3(0));
     }
     CHECK(world.statistics().not_finite == 2);
@@ -102,19 +79,19 @@ TEST_CASE("bodies that a spring makes infinite are put into quarantine, and the 
 }
 
 TEST_CASE("a quarantine has the same bits on any number of lanes, threads and ranks, and is saved", "[world]") {
-    World world(torn_apart(), {}, std::make_unique<ReferenceRunner>(1, 1));
+    World world(torn_apart(), {}, tearing<ReferenceRunner>(1, 1));
     const std::vector<std::uint64_t> expected = hashes_of(world, 20);
     for (const auto& [threads, lanes] : {std::pair{1, 4}, {2, 8}, {1, 16}}) {
-        World other(torn_apart(), {}, std::make_unique<ReferenceRunner>(threads, lanes));
+        World other(torn_apart(), {}, tearing<ReferenceRunner>(threads, lanes));
         CHECK(hashes_of(other, 20) == expected);
     }
     run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
-        World one(torn_apart(), {}, make_distributed_runner(exchange));
+        World one(torn_apart(), {}, tearing<DistributedRunner>(exchange, 1));
         const std::vector<std::uint64_t> seen = hashes_of(one, 20);
         const std::size_t count = one.quarantines().size();
         if (exchange->rank() == 0) CHECK((seen == expected && count == 2));
     });
-    World half(torn_apart(), {}, 1), rest(torn_apart(), {}, 1);
+    World half(torn_apart(), {}, tearing<ReferenceRunner>(1)), rest(torn_apart(), {}, 1);
     half.step(3);
     rest.restore(half.save());
     CHECK(rest.quarantines().size() == 2);
@@ -129,7 +106,7 @@ TEST_CASE("a body that goes into quarantine in a share of a world is told to all
     constexpr int steps = 60;
     for (const float height : {std::numeric_limits<float>::infinity(), 2e15f})
         for (const std::size_t body : {std::size_t{3}, std::size_t{120}}) {
-            World alone(scene, {}, std::make_unique<Poisoned<ReferenceRunner>>(body, height, 1));
+            World alone(scene, {}, std::make_unique<tests::Poisoned<ReferenceRunner>>(std::vector{body}, 30, height, 1));
             const std::vector<std::uint64_t> expected = hashes_of(alone, steps);
             REQUIRE(alone.quarantines().size() == 1);
             const Quarantine there = alone.quarantines().front();
@@ -137,7 +114,8 @@ TEST_CASE("a body that goes into quarantine in a share of a world is told to all
             for (const int ranks : {2, 3}) {
                 std::vector<std::uint8_t> agree(static_cast<std::size_t>(ranks));
                 run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
-                    auto runner = std::make_unique<Poisoned<DistributedRunner>>(body, height, exchange, 1);
+                    auto runner =
+                        std::make_unique<tests::Poisoned<DistributedRunner>>(std::vector{body}, 30, height, exchange, 1);
                     const auto& seen_runner = *runner;
                     World world(scene, {}, std::move(runner));
                     const std::vector<std::uint64_t> seen = hashes_of(world, steps);
@@ -155,7 +133,7 @@ TEST_CASE("a body that goes into quarantine in a share of a world is told to all
 }
 
 TEST_CASE("a body put elsewhere leaves quarantine", "[world]") {
-    World world(torn_apart(), {}, 1);
+    World world(torn_apart(), {}, tearing<ReferenceRunner>(1));
     world.step(5);
     const std::size_t body = 1;
     world.set_material(body, {.friction = 0.3f});
@@ -173,7 +151,7 @@ TEST_CASE("a body put elsewhere leaves quarantine", "[world]") {
 TEST_CASE("what rests on a body in quarantine falls through it", "[world]") {
     Scene scene = torn_apart();
     scene.bodies.push_back({.shape = Sphere{0.2f}, .position = {0.8f, 1.3f, 0}});
-    World world(scene, {}, 1);
+    World world(scene, {}, tearing<ReferenceRunner>(1));
     world.step(90);
     CHECK(world.quarantines().size() == 2);
     CHECK(world.body(scene.bodies.size() - 1).position.y < 0.25f);

@@ -150,7 +150,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
         const Pose before = gather<Pose>(tables.poses, bodies);
-        RigidState after = integrate(before, velocity, group.properties, p.h);
+        RigidState after = integrate(before, held_velocity(velocity, p), group.properties, p.h);
         const Indices live = bodies.only(living(first, last));
         const Bool sound = is_sound(after.pose) && is_sound(after.velocity);
         if (!none(!sound)) {
@@ -181,8 +181,9 @@ void finish(const WideTables& tables, std::size_t first, std::size_t last) {
         Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         velocity.linear = flush_tiny(velocity.linear + sum.linear);
         velocity.angular = flush_tiny(velocity.angular + sum.angular);
-        const Bool sound = is_sound(velocity), limited = is_spin_limited(velocity, p);
+        const Bool limited = is_spin_limited(velocity, p);
         velocity = held_velocity(velocity, p);
+        const Bool sound = is_sound(velocity);
         scatter(tables.velocities, live, velocity);
         const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
         const Bool fast = was_fast(properties, gather<Bounds>(tables.bounds, bodies).sweep, gather<Pose>(tables.poses, bodies));

@@ -78,7 +78,7 @@ struct TouchingGroup {
 
     SCREE_INLINE Margin margin(const WideTables& tables, const Parameters& p) const {
         return margin_of(ta, gather<Velocity>(tables.velocities, Indices(pair.a)), tb,
-                         gather<Velocity>(tables.velocities, Indices(pair.b)), p);
+                         gather<Velocity>(tables.velocities, Indices(pair.b)), pose_b.position - pose_a.position, p);
     }
     SCREE_INLINE void keep(const WideTables& tables, const ManifoldBuffer& touch) const {
         scatter(tables.manifolds, pairs.only(live), touch.manifold);

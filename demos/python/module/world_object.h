@@ -1,6 +1,7 @@
 // A world as the Python module holds it.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,9 +37,12 @@ struct WorldObject : std::enable_shared_from_this<WorldObject> {
     std::vector<std::shared_ptr<demos::Animation>> exports;  // being recorded
     int views = 0;                                           // arrays that look into its tables
     bool busy = false;                                       // a thread is in it, without Python's lock
+    double batch_seconds = 1;                                // that the last steps took; at first unknown
+    std::future<void> left;                                  // steps that an interrupt left to end by themselves
 
     const demos::LoadedScene& as_subject();
     void close_exports();
+    void await_left();
     // Throws BufferError while arrays look into the tables, naming what is to be done.
     void require_no_views(const char* what) const;
 };
@@ -48,6 +52,7 @@ class Use {
 public:
     explicit Use(WorldObject& object) : object_(object) {
         if (object.busy) throw std::runtime_error("the world is in use by another thread");
+        object.await_left();
         object.busy = true;
     }
     ~Use() { object_.busy = false; }

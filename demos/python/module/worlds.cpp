@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <future>
 #include <map>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -77,6 +79,21 @@ std::shared_ptr<WorldObject> make_world(const std::vector<Description>& scenes, 
 // Steps without Python's lock, in batches of about 20 ms, between which signals are heard and progress is told.
 constexpr double batch_seconds = 0.02, seconds_between_reports = 0.1;
 constexpr int largest_batch = 1024;
+// A batch that may take longer than this runs on a thread of its own, so that Ctrl-C is heard while it runs.
+constexpr double long_batch_seconds = 0.1;
+constexpr std::chrono::milliseconds hearing(50);
+
+void advance(WorldObject& object, int batch) {
+    const Clock::time_point start = Clock::now();
+    object.world.step(batch);
+    for (const auto& file : object.exports) file->after_step(object.world);
+    object.batch_seconds = seconds_since(start);
+}
+
+bool ends_soon(const std::future<void>& work) {
+    const py::gil_scoped_release unlocked;
+    return work.wait_for(hearing) == std::future_status::ready;
+}
 
 class Stepping {
 public:
@@ -101,13 +118,28 @@ public:
 
 private:
     void step(int batch) {
-        const py::gil_scoped_release unlocked;
-        const Clock::time_point start = Clock::now();
-        object_.world.step(batch);
-        for (const auto& file : object_.exports) file->after_step(object_.world);
-        const double seconds = seconds_since(start);
+        if (object_.batch_seconds > long_batch_seconds) {
+            step_aside(batch);
+        } else {
+            const py::gil_scoped_release unlocked;
+            advance(object_, batch);
+        }
+        const double seconds = object_.batch_seconds;
         if (seconds < 0.5 * batch_seconds) batch_ = std::min(2 * batch_, largest_batch);
         if (seconds > 2 * batch_seconds) batch_ = std::max(batch_ / 2, 1);
+    }
+
+    // Interrupted, the batch goes on by itself, and whatever uses the world next waits for it.
+    void step_aside(int batch) {
+        std::packaged_task<void()> task([world = object_.shared_from_this(), batch] { advance(*world, batch); });
+        std::future<void> work = task.get_future();
+        std::thread(std::move(task)).detach();
+        while (!ends_soon(work)) {
+            if (PyErr_CheckSignals() == 0) continue;
+            object_.left = std::move(work);
+            throw py::error_already_set();
+        }
+        work.get();
     }
 
     WorldObject& object_;
@@ -227,6 +259,13 @@ WorldObject::WorldObject(const SceneDocument& document, World made, const demos:
       shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
       world(std::move(made)) {}
 
+void WorldObject::await_left() {
+    if (!left.valid()) return;
+    while (!ends_soon(left))
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    std::exchange(left, {}).get();
+}
+
 WorldObject::~WorldObject() {
     try {
         close_exports();
@@ -261,7 +300,12 @@ void bind_worlds(py::module_& module) {
     of_world.def(py::init(&make_world))
         .def("step", &step)
         .def("export_to", &start_export)
-        .def("close_exports", &WorldObject::close_exports)
+        .def("close_exports",
+             [](WorldObject& object) {
+                 object.await_left();
+                 object.close_exports();
+             })
+        .def("is_stepping", [](const WorldObject& object) { return object.left.valid(); })
         .def("save", &save)
         .def("restore", &restore)
         .def("keep_state",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import sys
 import typing
 import weakref
 from enum import IntEnum
@@ -90,7 +91,10 @@ _worlds: "weakref.WeakSet[World]" = weakref.WeakSet()
 
 def _finish() -> None:
     """Before Python ends: animations are written, and devices closed while their drivers are still there."""
+    interrupted = getattr(sys, "last_type", None) is KeyboardInterrupt
     for world in list(_worlds):
+        if interrupted and world._native.is_stepping():
+            return  # Python ends itself by the signal, and need not wait for a long step
         world._native.close_exports()
     _native.close_backends()
 
@@ -144,7 +148,8 @@ class World:
 
     # ---- running
     def step(self, count: int = 1, progress: Optional[bool] = None) -> None:
-        """Advances by `count` steps of 1/rate seconds, without holding Python's lock; Ctrl-C ends it between steps.
+        """Advances by `count` steps of 1/rate seconds, without holding Python's lock; Ctrl-C ends it between steps, or
+        leaves a long step to end by itself, for which the world's next use waits.
 
         The scene's timed events happen on the way. progress: shows a bar; by default on a terminal and in a notebook, if it
         takes more than half a second. Raises MemoryError when memory ends.

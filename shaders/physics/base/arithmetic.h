@@ -91,6 +91,12 @@ LAW vec3 shortened(vec3 v, float longest) {
     float squared = dot3(v, v);
     return choose(squared > longest * longest, v * (longest * inverse_square_root(squared)), v);
 }
+// The least square of the distance of a point from the origin while it moves from `start` by `way`.
+LAW float nearest_squared(vec3 start, vec3 way) {
+    float part = clamped(-dot3(start, way) * reciprocal(larger(dot3(way, way), 1.0e-20f)), 0.0f, 1.0f);
+    vec3 nearest = start + way * part;
+    return dot3(nearest, nearest);
+}
 LAW vec3 xyz(vec4 v) {
     return vec3(v.x, v.y, v.z);
 }

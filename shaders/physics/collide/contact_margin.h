@@ -17,9 +17,13 @@ struct Margin {
     float least;    // speculative distance, m
     float pad0, pad1, pad2;
 };
-LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
-    float turning = length3(va.angular) * choose(a.shape == SHAPE_SPHERE, 0.0f, length3(a.size)) +
-                    length3(vb.angular) * choose(b.shape == SHAPE_SPHERE, 0.0f, length3(b.size));
+// The part of their way relative to each other by which bodies that pass may be deflected in a step, and still do.
+CONSTANT float DEFLECTED_PART = 0.125f;
+// `apart`: from A to B.
+LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, vec3 apart, Parameters parameters) {
+    float size_a = length3(a.size), size_b = length3(b.size);
+    float turning = length3(va.angular) * choose(a.shape == SHAPE_SPHERE, 0.0f, size_a) +
+                    length3(vb.angular) * choose(b.shape == SHAPE_SPHERE, 0.0f, size_b);
     float weight = larger(abs(a.gravity_scale), abs(b.gravity_scale)) * (parameters.dt * parameters.dt);
     Margin margin;
     margin.closing = (length3(vb.linear - va.linear) + turning) * parameters.dt;
@@ -28,6 +32,16 @@ LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity v
     margin.pad0 = 0.0f;
     margin.pad1 = 0.0f;
     margin.pad2 = 0.0f;
+    // Of bodies whose way relative to each other is longer than they are, those that pass each other have no contact: each of a
+    // cloud of splinters would have one with all others. Should a third body or gravity throw one into another, the time of
+    // impact stops them.
+    vec3 way = (vb.linear - va.linear) * parameters.dt;
+    float length = length3(way);
+    bool may_pass = length > size_a + size_b && a.shape != SHAPE_PLANE && b.shape != SHAPE_PLANE;
+    if (none(may_pass)) return margin;
+    float room = (bounding_radius(a.shape, a.size) + bounding_radius(b.shape, b.size)) + (DEFLECTED_PART * length + margin.least);
+    bool passes = may_pass && nearest_squared(apart, way) > room * room;
+    margin.closing = choose(passes, -1.0e30f, margin.closing);
     return margin;
 }
 // For every normal.

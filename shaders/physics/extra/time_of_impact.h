@@ -182,6 +182,33 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
     return impact;
 }
 
+// Whether the bounding spheres of two bodies stay apart on their ways, `reach` from their centres, of which each ends where the
+// body is clamped: so do most of a cloud that flies, at a hundredth of the cost of a time of impact.
+struct Way {
+    vec3 start;   // m
+    float reach;  // m
+    vec3 way;     // m
+    float until;  // fraction of the step at which it ends
+};
+LAW Way way_of(float reach, vec3 start, vec3 end, float until) {
+    Way way;
+    way.start = start;
+    way.reach = reach;
+    way.way = end - start;
+    way.until = smaller(until, 1.0f);
+    return way;
+}
+LAW bool ways_pass(Way a, Way b, float touch) {
+    float room = 1.001f * (a.reach + b.reach) + 2.0f * touch, both = smaller(a.until, b.until);
+    vec3 apart = b.start - a.start, together = (b.way - a.way) * both;
+    vec3 alone = b.way * (b.until - both) - a.way * (a.until - both);
+    return nearest_squared(apart, together) > room * room && nearest_squared(apart + together, alone) > room * room;
+}
+// How far from the centre of its body a row reaches, m; a plane everywhere.
+LAW float reach_of(BodyProperties properties) {
+    return choose(properties.shape == SHAPE_PLANE, 1.0e15f, bounding_radius(properties));
+}
+
 // The pose at the end of the step without contacts.
 LAW Pose predict_pose(Pose pose, Velocity velocity, BodyForces load, Parameters parameters) {
     Pose end = pose;
@@ -212,8 +239,12 @@ LAW float same_normal(bool driven) {
 }
 LAW bool will_meet(vec3 normal, float cosine, BodyProperties ta, Pose a, Velocity va, BodyForces la, BodyProperties tb, Pose b,
                    Velocity vb, BodyForces lb, Parameters parameters, Hulls hulls) {
-    MotionPath ca = path_of(ta, a.position, a.orientation, predict_pose(a, va, la, parameters), 1.0f);
-    MotionPath cb = path_of(tb, b.position, b.orientation, predict_pose(b, vb, lb, parameters), 1.0f);
+    Pose end_a = predict_pose(a, va, la, parameters), end_b = predict_pose(b, vb, lb, parameters);
+    if (ways_pass(way_of(reach_of(ta), a.position, end_a.position, 1.0f), way_of(reach_of(tb), b.position, end_b.position, 1.0f),
+                  touch_of(ta, tb, parameters)))
+        return false;
+    MotionPath ca = path_of(ta, a.position, a.orientation, end_a, 1.0f);
+    MotionPath cb = path_of(tb, b.position, b.orientation, end_b, 1.0f);
     Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, NO_CONTACT, parameters), true, hulls);
     return impact.fraction <= 1.0f && dot3(impact.normal, normal) > cosine;
 }

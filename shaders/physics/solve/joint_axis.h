@@ -281,15 +281,23 @@ LAW JointRotor rotor_as_step_begins(JointRotor rotor, bool were_set, bool at_res
     rotor.speed = choose(were_set, axis_speed, choose(at_rest, 0.0f, rotor.speed));
     return rotor;
 }
+// What a row may ask for, m/s or rad/s. Bodies are not as fast as a joint asks at the ends of the ranges (held_velocity), and it
+// then asks for more in every substep.
+CONSTANT float MOST_ASKED = 1.0e9f;
+// The sum of a row's or rotor's impulses, within what changes the row's speed by that.
+LAW float bounded_impulse(float impulse, JointRow row) {
+    float most = MOST_ASKED * reciprocal(larger(row.inverse_effective_mass, 1.0e-20f));
+    return clamped(impulse, -most, most);
+}
 // The rotor after its impulse on the axis.
 LAW JointRotor rotor_slowed(JointRotor rotor, float impulse) {
-    rotor.speed = flush_tiny(rotor.speed - impulse * reciprocal(rotor.inertia));
+    rotor.speed = clamped(flush_tiny(rotor.speed - impulse * reciprocal(rotor.inertia)), -MOST_ASKED, MOST_ASKED);
     return rotor;
 }
 // Adds the change of the pass to the impulse, which warm starts the next substep if it `warms`. `row`: with its changes added.
 LAW JointRotor rotor_after_pass(JointRotor rotor, JointRow row, bool warms) {
     rotor = rotor_slowed(rotor, rotor.change - given_change(row));
-    rotor.impulse = flush_tiny(rotor.impulse + rotor.change);
+    rotor.impulse = bounded_impulse(flush_tiny(rotor.impulse + rotor.change), row);
     rotor.change = 0.0f;
     rotor.speed = choose(warms, rotor_slowed(rotor, impulse_of_rotor(row, rotor)).speed, rotor.speed);
     return rotor;

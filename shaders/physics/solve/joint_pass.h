@@ -67,8 +67,8 @@ LAW float handed_impulse(JointRow row, JointRotor rotor, bool warms) {
 }
 // Adds the changes of the pass to the impulses.
 LAW JointRow committed(JointRow row) {
-    row.motor_impulse = row.motor_impulse + row.motor_change;
-    row.limit_impulse = row.limit_impulse + row.limit_change;
+    row.motor_impulse = bounded_impulse(row.motor_impulse + row.motor_change, row);
+    row.limit_impulse = bounded_impulse(row.limit_impulse + row.limit_change, row);
     return row;
 }
 // Clears the impulses: of a broken joint, or after an impact.

@@ -58,9 +58,13 @@ LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
     return velocity;
 }
 
-// The velocity with which a step ends: beyond the limits as the last pass left it, but no further than twice, or the bounds of
-// the next step reach over more cells than a device's loops have rounds for.
+// The velocity with which a body moves and a step ends: beyond the limits as the last pass left it, but no further than twice.
+// A spring or motor at the end of its range throws bodies out of any scene in one substep otherwise, and the bounds of the next
+// step reach over more cells than a device's loops have rounds for. What is not a number stays so (quarantine.h).
 LAW Velocity held_velocity(Velocity velocity, Parameters parameters) {
+    vec3 far = vec3(FARTHEST);
+    velocity.linear = larger3(-far, smaller3(far, velocity.linear));
+    velocity.angular = larger3(-far, smaller3(far, velocity.angular));
     velocity.linear = shortened(velocity.linear, 2.0f * parameters.max_speed);
     velocity.angular = shortened(velocity.angular, 2.0f * parameters.max_spin);
     return velocity;

@@ -73,7 +73,7 @@ void move_body(uint i) {
         forces.at[i].impacts = impacts_of(sum.weight, body);
         if (sum.weight > 0.0f) SET_FLOAT(impact_debts, i, sum.normal_impulse);
     }
-    RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
+    RigidState after = integrate(READ(poses, i), held_velocity(velocity, PARAMETERS), body, PARAMETERS.h);
     bool sound = is_sound(after.pose) && is_sound(after.velocity);
     if (!sound) {
         forces.at[i].kept = UNSOUND;
