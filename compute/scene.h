@@ -100,7 +100,7 @@ struct Body {
 // or slider, and the middle of a cone.
 constexpr float unlimited = 1e30f;
 
-struct Limits {       // of the position of B relative to A along an axis (m) or about it (rad, within pi of 0)
+struct Limits {       // of the position of B relative to A along an axis (m) or about it (rad, any number of turns)
     float lower = 0;  // -unlimited to unlimited, not above `upper`
     float upper = 0;
 };
@@ -167,6 +167,9 @@ struct Joint {
     float break_force = unlimited;                  // N, mean over a step; above it the joint breaks
     float break_torque = unlimited;                 // N m
     bool broken = false;                            // already broken
+    // Angle of a hinge, a twist or a swing alone at the start, to tell whole turns: that of the poses nearest to it, rad. Left
+    // out: the nearest to 0 that lies within the limits, or violates them by less than 0.1.
+    std::optional<float> angle{};
 };
 
 // ---- vehicles

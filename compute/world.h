@@ -97,7 +97,8 @@ struct JointState {
     float max_torque = 0;  // N m
     bool broken = false;
     float gap = 0;  // distance between the anchors, m
-    // By JointAxis: position of B relative to A, m and rad; for a Distance joint the first is the distance.
+    // By JointAxis: position of B relative to A, m and rad; for a Distance joint the first is the distance. The angle of a
+    // hinge, a twist or a swing alone counts turns.
     std::array<float, 6> coordinates{};
 };
 

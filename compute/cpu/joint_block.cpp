@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "compute/step/joint_blocks.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree::reference {
@@ -107,8 +108,8 @@ void JointBlock::describe(JointRoom& room) {
 }
 
 void JointBlock::place(Joint& joint) {
-    const physics::JointConfiguration at =
-        physics::joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
+    const physics::JointConfiguration at = configuration_of(joint, pose(joint.a), pose(joint.b));
+    joint.twist = at.turned;
     const physics::VelocityPair v = speeds(joint);
     for (int k = 0; k < 6; ++k)
         if (joint.axes[k].mode != 0)
@@ -229,7 +230,8 @@ void JointBlock::speeds_of_rows(const Joint& joint, JointLanes& found) const {
     WideJoint* const lanes = wide(joint);
     if (lanes) lanes->unknowns = joint.solved_axes;
     for_each_unknown(joint, [&](physics::uint k) {
-        const physics::RowTarget wants = physics::row_demand(joint.axes[k], joint.rows[k], joint.rotors[k], k,
+        physics::JointAxis turned;
+        const physics::RowTarget wants = physics::row_demand(axis_of(joint, k, turned), joint.rows[k], joint.rotors[k], k,
                                                              physics::active_set_of(joint.active_set, k), biased, p_);
         const float side = physics::right_hand_side(speed[k], wants.bias);
         if (lanes) {

@@ -102,11 +102,18 @@ public:
 private:
     static bool unknown(const Joint& joint, physics::uint k) { return (joint.solved_axes >> k & 1) != 0; }
     static const vec3& arm(const JointRow& row, bool is_b) { return is_b ? row.angular_b : row.angular_a; }
+    // An axis after the turns that the joint has made; `turned`: room for the one that makes any.
+    static const physics::JointAxis& axis_of(const Joint& joint, physics::uint k, physics::JointAxis& turned) {
+        if (k != 3) return joint.axes[k];
+        turned = physics::axis_after_turns(joint.axes[k], joint.twist, joint.rows[k].coordinate);
+        return turned;
+    }
     // The axes that constrain.
     template <class Visit>
     static void for_each_axis(Joint& joint, const Visit& visit) {
+        physics::JointAxis turned;
         for (physics::uint k = 0; k < 6; ++k)
-            if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, joint.axes[k], joint.rows[k]);
+            if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, axis_of(joint, k, turned), joint.rows[k]);
     }
     template <class Visit>
     static void for_each_rotor(Joint& joint, const Visit& visit) {

@@ -68,9 +68,11 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     auto& value = checked.*field.member;
     const std::string_view unit = unit_of(field.unit, direction);
     const Direction within = direction_within(field.unit, direction);
+    const auto check_number = [&](auto number) {
+        if (!field.range.holds(number)) refuse(at / field.key, out_of_range(number, field.range, unit));
+    };
     if constexpr (Number<Member>) {
-        if (!field.range.holds(value) && value != Owner{}.*field.member)
-            refuse(at / field.key, out_of_range(value, field.range, unit));
+        if (value != Owner{}.*field.member) check_number(value);
     } else if constexpr (std::is_same_v<Member, glm::vec2> || std::is_same_v<Member, glm::vec3>) {
         for (int i = 0; i < Member::length(); ++i)
             if (!field.range.holds(value[i]))
@@ -78,7 +80,11 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     } else if constexpr (std::is_same_v<Member, glm::vec4>) {
         make_unit(at / field.key, value, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
     } else if constexpr (is_optional<Member>) {
-        if (value) check_fields(at / field.key, *value, rules, within);
+        if constexpr (Number<typename Member::value_type>) {
+            if (value) check_number(*value);
+        } else {
+            if (value) check_fields(at / field.key, *value, rules, within);
+        }
     } else if constexpr (is_list<Member>) {
         if (!value.empty() || field.presence == Presence::required) {
             if (!field.range.holds(value.size()) && field.range.low > 0)

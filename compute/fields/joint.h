@@ -13,7 +13,7 @@ constexpr Range any_force = between(0, static_cast<double>(unlimited));
 template <>
 inline constexpr auto table<Limits> = table_of(
     "limits",
-    "Limits of the position of b relative to a along an axis (m), or about it (rad, within pi of 0); equal limits lock it",
+    "Limits of the position of b relative to a along an axis (m), or about it (rad, any number of turns); equal limits lock it",
     field("lower", &Limits::lower, within(static_cast<double>(unlimited)), "m or rad", "Lower limit").required(),
     field("upper", &Limits::upper, within(static_cast<double>(unlimited)), "m or rad", "Upper limit").required());
 
@@ -91,7 +91,11 @@ inline constexpr auto table<Joint> = table_of(
     field("collide", &Joint::collide, "Whether the two bodies collide"),
     field("break_force", &Joint::break_force, any_force, "N", "Mean force over a step above which the joint breaks"),
     field("break_torque", &Joint::break_torque, any_force, "N m", "Mean torque over a step above which the joint breaks"),
-    field("broken", &Joint::broken, "Whether it has broken already"));
+    field("broken", &Joint::broken, "Whether it has broken already"),
+    field(
+        "angle", &Joint::angle, within(1e6), "rad",
+        "Angle (rad) of a hinge, a twist or a swing alone at the start, to tell whole turns: the poses' nearest to it. Left out: "
+        "the nearest to 0 that lies within the limits"));
 
 // A joint of a scene file given in world coordinates at the initial poses, instead of anchors and frames.
 struct JointPlacement {

@@ -25,11 +25,7 @@ struct Rules {
     template <class Struct>
     void operator()(const Examination&, const Struct&, Direction) const {}
 
-    void operator()(const Examination& at, const Limits& limits, Direction direction) const {
-        constexpr fields::Range turn = fields::within(fields::half_turn);
-        if (direction == Direction::about)
-            for (const auto& [key, limit] : {std::pair{"lower", limits.lower}, std::pair{"upper", limits.upper}})
-                if (!turn.holds(limit)) refuse(at / key, out_of_range(limit, turn, "rad"));
+    void operator()(const Examination& at, const Limits& limits, Direction) const {
         require_order(at, limits.lower, limits.upper);
     }
     void operator()(const Examination& at, const Distance& distance, Direction) const {

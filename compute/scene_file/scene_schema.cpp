@@ -156,7 +156,7 @@ private:
     template <class Member>
     ordered_json type_of(const Range& range, Refers refers) {
         if constexpr (is_optional<Member>) {
-            return defined<typename Member::value_type>();
+            return type_of<typename Member::value_type>(range, refers);
         } else if constexpr (is_list<Member>) {
             ordered_json made = {{"type", "array"}, {"items", type_of<typename Member::value_type>({}, Refers::to_nothing)}};
             if (range.low > 0) made["minItems"] = number(range.low);

@@ -2,7 +2,9 @@
 #include "compute/step/joint_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "compute/step/state.h"
@@ -116,24 +118,39 @@ physics::uint index_of(std::size_t body) {
     return body == the_world ? physics::NONE : static_cast<physics::uint>(body);
 }
 
+// A joint's frame whose x is another of its axes.
+vec4 frame_from(const vec4& frame, std::size_t first) {
+    if (first == 0) return frame;
+    return physics::compose(frame, vec4(0.5f, 0.5f, 0.5f, first == 1 ? 0.5f : -0.5f));
+}
+
 physics::Joint record_of(const Joint& joint) {
     physics::Joint record{};
     record.a = index_of(joint.a);
     record.b = index_of(joint.b);
     record.anchor_a = joint.anchor_a;
     record.anchor_b = joint.anchor_b;
-    record.frame_a = joint.frame_a;
-    record.frame_b = joint.frame_b;
     const JointAxes axes = axes_of_kind(joint.kind);
+    record.frame_a = frame_from(joint.frame_a, axes.first);
+    record.frame_b = frame_from(joint.frame_b, axes.first);
     record.flags = axes.flags | (joint.collide ? physics::JOINT_COLLIDES : 0u);
     for (std::size_t k = 0; k < 6; ++k) {
-        record.axes[k] = axis_record(axes.axes[k]);
+        record.axes[k] = axis_record(axes, k);
         record.rotors[k] = rotor_record(axes.axes[k]);
     }
     record.break_force = joint.break_force;
     record.break_torque = joint.break_torque;
     record.broken = joint.broken;
     return record;
+}
+
+// Whether B can swing by half a turn in any direction.
+bool swings_over(const physics::JointAxis& y, const physics::JointAxis& z, physics::uint flags) {
+    const auto is = [](const physics::JointAxis& axis, physics::uint mode) { return (axis.mode & mode) != 0; };
+    if (is(y, physics::AXIS_LOCKED) || is(z, physics::AXIS_LOCKED)) return false;
+    if (flags & physics::JOINT_CONE) return !is(y, physics::AXIS_LIMITED);
+    const auto farthest = [](const physics::JointAxis& axis) { return std::max(std::abs(axis.lower), std::abs(axis.upper)); };
+    return std::hypot(static_cast<double>(farthest(y)), static_cast<double>(farthest(z))) > std::numbers::pi - 1e-6;
 }
 
 // Appends one block: its bodies, then its joints.
@@ -194,13 +211,17 @@ JointAxes axes_of_kind(const JointKind& kind) {
     } else if (const auto* cone = std::get_if<ConeTwist>(&kind)) {
         made.flags = physics::JOINT_CONE;
         made.axes[3].limits = cone->twist;
-        made.axes[4].limits = Limits{-unlimited, cone->swing};
+        // A cone of half a turn holds nothing back.
+        if (static_cast<double>(cone->swing) < std::numbers::pi - 1e-6) made.axes[4].limits = Limits{-unlimited, cone->swing};
         made.axes[3].friction = cone->friction;
     } else if (const auto* six = std::get_if<SixDof>(&kind)) {
         const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
-        if (!six->twist.locked) made.flags = physics::JOINT_SPINS;
-        std::copy(std::begin(all), std::end(all), made.axes);
+        const auto turns = [&](std::size_t k) { return (axis_record(all[k]).mode & physics::AXIS_LOCKED) == 0; };
+        if (turns(4) != turns(5) && !turns(3)) made.first = turns(4) ? 1 : 2;
+        if (!six->twist.locked) made.flags |= physics::JOINT_SPINS;
+        for (std::size_t k = 0; k < 6; ++k) made.axes[k] = all[made.of_record(k)];
     }
+    if (swings_over(axis_record(made.axes[4]), axis_record(made.axes[5]), made.flags)) made.flags |= physics::JOINT_SWINGS;
     return made;
 }
 
@@ -235,6 +256,24 @@ physics::JointAxis axis_record(const Axis& axis) {
         record.most = axis.friction;
     }
     if (axis.armature >= least_armature) record.mode |= physics::AXIS_ROTOR;
+    return record;
+}
+// A swing counts no turns: its limits and its rest are those within reach, and a whole turn's limits hold nothing back.
+physics::JointAxis axis_record(const JointAxes& axes, std::size_t k) {
+    physics::JointAxis record = axis_record(axes.axes[k]);
+    if (k < 4 || (axes.flags & physics::JOINT_CONE) != 0) return record;
+    if ((record.mode & physics::AXIS_LIMITED) != 0 && record.upper - record.lower >= physics::TURN) {
+        record.mode &= ~physics::AXIS_LIMITED;
+        record.lower = -unlimited;
+        record.upper = unlimited;
+    }
+    const bool limited = (record.mode & physics::AXIS_LIMITED) != 0;
+    const float turns = physics::turns_between(0, limited ? 0.5f * (record.lower + record.upper) : record.rest);
+    record.rest = physics::less_turns(record.rest, turns);
+    if (limited) {
+        record.lower = physics::less_turns(record.lower, turns);
+        record.upper = physics::less_turns(record.upper, turns);
+    }
     return record;
 }
 physics::JointRotor rotor_record(const Axis& axis) {
@@ -274,12 +313,43 @@ void take_joint_tables(State& state, JointTables tables) {
     state.joint_groups = joint_groups(state.joints, state.joint_blocks, state.fixed().joint_blocks);
 }
 
+physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b) {
+    return physics::turned_configuration(
+        physics::joint_configuration(joint.anchor_a, joint.frame_a, a, joint.anchor_b, joint.frame_b, b), joint.flags,
+        joint.twist, joint.axes[3], joint.axes[4], joint.axes[5]);
+}
+physics::JointConfiguration configuration_of(const State& state, const physics::Joint& joint) {
+    const auto pose = [&](physics::uint body) {
+        return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
+    };
+    return configuration_of(joint, pose(joint.a), pose(joint.b));
+}
+
+float first_turns(const State& state, const physics::Joint& joint, std::optional<float> angle) {
+    const float twist = configuration_of(state, joint).twist;
+    if (angle) return physics::turns_between(twist, *angle);
+    constexpr double slack = 0.1, turn = 2 * std::numbers::pi;  // rad
+    const double lower = static_cast<double>(joint.axes[3].lower) - slack,
+                 upper = static_cast<double>(joint.axes[3].upper) + slack;
+    const auto at = [&](double turns) { return static_cast<double>(twist) + turns * turn; };
+    const auto outside = [&](double turns) { return std::max(lower - at(turns), at(turns) - upper); };
+    const double below = std::floor((upper - at(0)) / turn), above = std::ceil((lower - at(0)) / turn);
+    // The nearest to 0 that is not outside, or of both beside the limits the less violated.
+    const double most = at(0) > upper ? below : at(0) < lower ? above : 0, fewer = most + (most > 0 ? -1 : most < 0 ? 1 : 0);
+    return static_cast<float>(outside(most) <= std::max(outside(fewer), 0.0) ? most : fewer);
+}
+
+std::optional<float> angle_to_tell(const State& state, const physics::Joint& joint) {
+    const physics::JointConfiguration at = configuration_of(state, joint);
+    if (!physics::counts_turns(joint.flags, joint.axes[3])) return std::nullopt;
+    if (physics::turns_between(at.twist, at.turned) == first_turns(state, joint, std::nullopt)) return std::nullopt;
+    return at.turned;
+}
+
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k) {
     using namespace physics;
-    const auto pose = [&](uint body) { return body == NONE ? Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body]; };
     const auto velocity = [&](uint body) { return body == NONE ? Velocity{} : state.velocities[body]; };
-    const JointConfiguration at =
-        joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
+    const JointConfiguration at = configuration_of(state, joint);
     const VelocityPair v{velocity(joint.a), velocity(joint.b)};
     const int axis = static_cast<int>(k);
     const float h = state.fixed().h;
@@ -288,7 +358,8 @@ float speed_of_axis(const State& state, const physics::Joint& joint, physics::ui
     return row_speed(row, is_linear(k), v);
 }
 
-void start_rotors(const State& state, physics::Joint& joint) {
+void start_joint(const State& state, physics::Joint& joint, std::optional<float> angle) {
+    joint.twist = physics::with_turns(configuration_of(state, joint).twist, first_turns(state, joint, angle));
     for (physics::uint k = 0; k < 6; ++k)
         if (physics::has_rotor(joint.axes[k])) joint.rotors[k].speed = speed_of_axis(state, joint, k);
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compute/scene.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/solve/joint_turns.h"
 
 namespace scree {
 
@@ -27,17 +29,30 @@ struct JointTables {
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties);
 void take_joint_tables(State& state, JointTables tables);
 
-// The six axes of a joint kind: x, y, z, twist, swing_y, swing_z.
+// The six axes of a joint kind: x, y, z, twist, swing_y, swing_z. Where B turns about y or z alone, the record's x is that axis,
+// its y and z are the next ones.
 struct JointAxes {
     Axis axes[6];
-    physics::uint flags = 0;  // JOINT_RADIAL, JOINT_CONE
+    physics::uint flags = 0;  // JOINT_RADIAL, JOINT_CONE, JOINT_SPINS, JOINT_SWINGS
+    std::size_t first = 0;    // axis of the kind that is the record's x
+    std::size_t of_record(std::size_t k) const { return k / 3 * 3 + (k + first) % 3; }
+    std::size_t in_record(std::size_t k) const { return k / 3 * 3 + (k + 3 - first) % 3; }
 };
-JointAxes axes_of_kind(const JointKind& kind);
+JointAxes axes_of_kind(const JointKind& kind);  // in the order of the record
 physics::JointAxis axis_record(const Axis& axis);
+physics::JointAxis axis_record(const JointAxes& axes, std::size_t k);
 physics::JointRotor rotor_record(const Axis& axis);
+// The coordinates of a joint whose bodies are at these poses.
+physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b);
+physics::JointConfiguration configuration_of(const State& state, const physics::Joint& joint);
+// Whole turns of a joint at its present poses as a world begins: those nearest to `angle`, or else the fewest that its limits
+// allow, which a start may violate by a little.
+float first_turns(const State& state, const physics::Joint& joint, std::optional<float> angle);
+// The angle that a scene must tell, so that a joint begins with its present turns.
+std::optional<float> angle_to_tell(const State& state, const physics::Joint& joint);
 // J v of axis k at the present poses and velocities.
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k);
-// Lets a joint's rotors turn with their axes.
-void start_rotors(const State& state, physics::Joint& joint);
+// Lets a joint begin at the present poses and velocities: its turns, and its rotors with their axes.
+void start_joint(const State& state, physics::Joint& joint, std::optional<float> angle);
 
 }  // namespace scree

@@ -122,7 +122,8 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.strains[i] = start_strain_of(scene.bodies[i], properties[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
-    for (physics::Joint& joint : state_.joints) start_rotors(state_, joint);
+    for (std::size_t j = 0; j < scene.joints.size(); ++j)
+        start_joint(state_, state_.joints[state_.joint_records[j]], scene.joints[j].angle);
     state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }

@@ -351,7 +351,7 @@ TableRanges StateEditor::filter(const Scene& scene) {
 TableRanges StateEditor::needed_to_rejoin(const Scene& scene, std::span<const std::size_t> fresh) const {
     TableRanges needed = joint_ranges(state_);
     append(needed, vehicle_ranges(state_));
-    for (std::size_t j = 0; j < scene.joints.size(); ++j) {  // rotors of new joints turn with their axes
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {  // new joints begin at their poses
         if (j < state_.joint_records.size() && std::find(fresh.begin(), fresh.end(), j) == fresh.end()) continue;
         for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
             if (body != the_world)
@@ -390,7 +390,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     for (std::size_t j = 0; j < state_.joint_records.size(); ++j) {
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         if (j >= before.size() || std::find(fresh.begin(), fresh.end(), j) != fresh.end()) {
-            start_rotors(state_, now);
+            start_joint(state_, now, scene.joints[j].angle);
             continue;
         }
         const physics::Joint& was = before[j];
@@ -400,6 +400,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
             now.rotors[k].speed = was.rotors[k].speed;
         }
         now.active_set = was.active_set;
+        now.twist = was.twist;
         now.broken = was.broken;
         now.force = was.force;
         now.max_force = was.max_force;

@@ -110,7 +110,6 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
         physics::Joint& joint = state.joints[i];
         for (physics::JointRow& row : joint.rows) row = {};
         for (physics::JointRotor& rotor : joint.rotors) rotor = {rotor.inertia, 0, 0, 0};
-        start_rotors(state, joint);
         joint.active_set = joint.broken = joint.solved_axes = 0;
         joint.force = joint.torque = vec3(0);
         joint.max_force = joint.max_torque = 0;
@@ -118,8 +117,9 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
     for (std::size_t j = copy * joints; j < (copy + 1) * joints; ++j) {
         physics::Joint& joint = state.joints[state.joint_records[j]];
         const JointAxes made = axes_of_kind(scene.joints[j].kind);
-        for (std::size_t k = 0; k < 6; ++k) joint.axes[k] = axis_record(made.axes[k]);
+        for (std::size_t k = 0; k < 6; ++k) joint.axes[k] = axis_record(made, k);
         joint.broken = scene.joints[j].broken;
+        start_joint(state, joint, scene.joints[j].angle);
     }
     changed.push_back({Table::joints, copy * records, records});
 }

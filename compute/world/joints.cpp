@@ -9,7 +9,6 @@
 #include "compute/step/joint_blocks.h"
 #include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
-#include "shaders/physics/solve/joint.h"
 
 namespace scree {
 
@@ -49,14 +48,12 @@ JointState World::Impl::joint_state(std::size_t i) const {
     found.max_force = record.max_force;
     found.max_torque = record.max_torque;
     found.broken = record.broken != 0;
-    const auto pose = [&](physics::uint body) {
-        return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
-    };
-    const physics::JointConfiguration at = physics::joint_configuration(record.anchor_a, record.frame_a, pose(record.a),
-                                                                        record.anchor_b, record.frame_b, pose(record.b));
+    const physics::JointConfiguration at = configuration_of(state, record);
     found.gap = glm::length(at.gap);
-    found.coordinates = {
-        glm::dot(at.x, at.gap), glm::dot(at.y, at.gap), glm::dot(at.z, at.gap), at.twist, at.swing_y, at.swing_z};
+    const float coordinates[] = {
+        glm::dot(at.x, at.gap), glm::dot(at.y, at.gap), glm::dot(at.z, at.gap), at.turned, at.swing_y, at.swing_z};
+    const JointAxes axes = axes_of_kind(scene.joints[i].kind);
+    for (std::size_t k = 0; k < 6; ++k) found.coordinates[axes.of_record(k)] = coordinates[k];
     if (record.flags & physics::JOINT_RADIAL) found.coordinates[0] = found.gap;
     return found;
 }
@@ -80,10 +77,10 @@ void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::functio
     const std::uint32_t record = state.joint_records[index];
     const TableRange range{Table::joints, record, 1};
     runner->download({range});
-    const auto k = static_cast<std::size_t>(axis);
-    const Axis now = axes_of_kind(joint.kind).axes[k];
-    state.joints[record].axes[k] = axis_record(now);
-    state.joints[record].rotors[k].inertia = rotor_record(now).inertia;
+    const JointAxes axes = axes_of_kind(joint.kind);
+    const std::size_t k = axes.in_record(static_cast<std::size_t>(axis));
+    state.joints[record].axes[k] = axis_record(axes, k);
+    state.joints[record].rotors[k].inertia = rotor_record(axes.axes[k]).inertia;
     runner->upload({range});
     wake(joint);
 }
@@ -144,9 +141,8 @@ void World::Impl::apply_joint_force(const JointForce& one) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
     const physics::Pose a = pose(record.a), b = pose(record.b);
-    const physics::JointConfiguration at =
-        physics::joint_configuration(record.anchor_a, record.frame_a, a, record.anchor_b, record.frame_b, b);
-    const auto k = static_cast<std::size_t>(one.axis);
+    const physics::JointConfiguration at = configuration_of(record, a, b);
+    const std::size_t k = axes_of_kind(scene.joints[one.joint].kind).in_record(static_cast<std::size_t>(one.axis));
     vec3 axis = k % 3 == 0 ? at.x : (k % 3 == 1 ? at.y : at.z);
     const bool radial = (record.flags & physics::JOINT_RADIAL) != 0u && k == 0;
     if (radial && glm::length(at.gap) > 1e-6f) axis = glm::normalize(at.gap);

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "compute/scene/fracture.h"
+#include "compute/step/joint_blocks.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -47,7 +48,9 @@ Scene World::Impl::snapshot(std::optional<std::size_t> copy) const {
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
         if (is_joint_gone(i)) continue;
         Joint joint = scene.joints[i];
-        joint.broken = joint_state(i).broken;
+        const physics::Joint& record = state.joints[state.joint_records[i]];
+        joint.broken = record.broken != 0;
+        joint.angle = angle_to_tell(state, record);
         const bool no_a = is_missing(joint.a), no_b = is_missing(joint.b);
         if (no_a || no_b) continue;
         joint_there[i] = joints.size();

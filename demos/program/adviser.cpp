@@ -81,7 +81,8 @@ void for_each_spring(const Joint& joint, Visit&& visit) {
 }
 
 // Whether something gives energy to bodies: what moves by itself, motors, engines, and springs that are motors (of a limited
-// force, or of an angle, which jumps where it has turned around). Gravity and other springs store energy, which is counted.
+// force, or of an angle of six degrees, which may jump where it has turned half way around). Gravity and other springs store
+// energy, which is counted.
 bool is_driving(const Body& body) {
     const auto moves = [](vec3 v) { return glm::dot(v, v) > 0; };
     return (body.motion == Motion::kinematic && (moves(body.velocity) || moves(body.angular_velocity))) ||
@@ -89,10 +90,11 @@ bool is_driving(const Body& body) {
 }
 bool is_driven_by_more(const Scene& scene) {
     const auto gives = [](const Joint& joint) {
+        const bool is_hinge = std::holds_alternative<Hinge>(joint.kind);
         bool any = false;
         for_each_spring(joint, [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>& motor) {
-            any |= motor.has_value() ||
-                   (spring && spring->stiffness > 0 && (spring->max_force < unlimited || axis >= JointAxis::twist));
+            any |= motor.has_value() || (spring && spring->stiffness > 0 &&
+                                         (spring->max_force < unlimited || (axis >= JointAxis::twist && !is_hinge)));
         });
         return any;
     };
@@ -125,7 +127,8 @@ Stored stored_in_springs(const World& world) {
         for_each_spring(joints[i], [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>&) {
             if (!spring) return;
             const double stretch = static_cast<double>(states[i].coordinates[static_cast<std::size_t>(axis)] - spring->rest);
-            const double rounding = 1e-6 * (1 + reach(joints[i].a) + reach(joints[i].b) + std::abs(stretch));
+            const double rounding = 1e-6 * (1 + reach(joints[i].a) + reach(joints[i].b) + std::abs(stretch) +
+                                            static_cast<double>(std::abs(spring->rest)));
             const double stiffness = static_cast<double>(spring->stiffness);
             found.energy += 0.5 * stiffness * stretch * stretch;
             found.unsure += stiffness * rounding * (std::abs(stretch) + rounding);

@@ -41,6 +41,7 @@ void place_rows(uint j) {
     bool were_set = body_was_set(joints.at[j].a) || body_was_set(joints.at[j].b);
     bool at_rest = body_was_at_rest(joints.at[j].a) && body_was_at_rest(joints.at[j].b);
     JointConfiguration at = configuration_of(j);
+    joints.at[j].twist = at.turned;
     uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b, flags = joints.at[j].flags;
     VelocityPair v;
     v.a = velocity_of(joints.at[j].a, side_a);

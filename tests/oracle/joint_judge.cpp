@@ -112,6 +112,18 @@ dquat quaternion(const vec4& q) {
         dquat(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)));
 }
 
+// Where b turns about y or z alone, that is the record's x: what a twist is has no seam where the swing is half a turn.
+void begin_with_lone_axis(DenseJoint& joint) {
+    const auto turns = [&](std::size_t k) { return joint.axes[k].drive != DenseAxis::Drive::lock; };
+    if (turns(3) || turns(4) == turns(5)) return;
+    const std::size_t first = turns(4) ? 1 : 2;
+    const auto axes = joint.axes;
+    for (std::size_t k = 0; k < 6; ++k) joint.axes[k] = axes[k / 3 * 3 + (k + first) % 3];
+    const dquat cycle(first == 1 ? 0.5 : -0.5, 0.5, 0.5, 0.5);
+    joint.frame_a = joint.frame_a * cycle;
+    joint.frame_b = joint.frame_b * cycle;
+}
+
 DenseJoint dense(const Joint& joint, const physics::Joint& record) {
     DenseJoint made;
     made.a = joint.a == the_world ? no_dense_body : joint.a;
@@ -121,6 +133,7 @@ DenseJoint dense(const Joint& joint, const physics::Joint& record) {
     made.frame_a = quaternion(joint.frame_a);
     made.frame_b = quaternion(joint.frame_b);
     std::visit(AxesOf{made}, joint.kind);
+    begin_with_lone_axis(made);
     for (std::size_t k = 0; k < 6; ++k) {
         made.axes[k].drive_impulse = static_cast<double>(record.rows[k].motor_impulse);
         made.axes[k].stop_impulse = static_cast<double>(record.rows[k].limit_impulse);

@@ -58,6 +58,10 @@ TEST_CASE("joints of every kind give the same bits on both processors, and valid
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
+TEST_CASE("joints that turn by several turns give the same bits on both processors") {
+    require_equal(turning(), 40);
+}
+
 TEST_CASE("joints that come and go while a world runs give the same bits on both processors") {
     host::DeviceOptions options;
     options.validation = true;

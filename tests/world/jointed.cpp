@@ -52,6 +52,48 @@ Scene all_kinds() {
     return scene;
 }
 
+Scene turning() {
+    Scene scene;
+    scene.gravity = vec3(0);
+    const Axis locked{.locked = true};
+    const Axis axes[] = {{.limits = Limits{-3.49f, 0.785f}},
+                         {.limits = Limits{0, 7.5f}, .armature = 0.5f},
+                         {.limits = Limits{-31.4f, 62.8f}, .friction = 1},
+                         {.limits = Limits{-12, 12}, .motor = Motor{20, 50}},
+                         {.spring = Spring{20, 4, 20}},
+                         {.spring = Spring{8000, 200, -5}, .armature = 0.1f}};  // too stiff to act as an explicit force
+    const auto kind_of = [&](std::size_t number, const Axis& axis) -> JointKind {
+        SixDof six{locked, locked, locked, locked, locked, locked};
+        Axis* const about[] = {&six.twist, &six.swing_y, &six.swing_z};
+        if (number < 3) *about[number] = axis;
+        if (number < 3) return six;
+        if (number == 3) return Hinge{axis};
+        if (number == 4) return ConeTwist{0.3f, axis.limits.value_or(Limits{-9, 4}), axis.friction};
+        six.twist = six.swing_y = axis;
+        if (number == 6) six.swing_z = Axis{};
+        return six;
+    };
+    for (std::size_t i = 0; i < 3 * 7 * std::size(axes); ++i) {
+        const std::size_t number = i / 3 % 7, kind = i / 21;
+        const vec3 place = 2.0f * vec3(static_cast<float>(i % 21), 0, static_cast<float>(kind));
+        const float speed = i % 2 == 0 ? 25.0f : -15.0f;
+        Body& body = scene.bodies.emplace_back();
+        body.shape = Box{vec3(0.3f, 0.2f, 0.25f)};
+        body.position = place;
+        body.angular_velocity = number == 1 ? vec3(0, 0, speed) : number == 2 ? vec3(speed, 0, 0) : vec3(0, speed, 0);
+        scene.joints.push_back(joint_at(scene, kind_of(number, axes[kind]), the_world, i, place, {0, 1, 0}));
+    }
+    // One on another, so that both ends turn.
+    for (std::size_t i = 0; i < 21; ++i) {
+        Body body = scene.bodies[i];
+        body.position.y += 1;
+        scene.bodies.push_back(body);
+        scene.joints.push_back(
+            joint_at(scene, Hinge{axes[i % std::size(axes)]}, i, scene.bodies.size() - 1, body.position, {0, 1, 0.2f}));
+    }
+    return scene;
+}
+
 Scene spokes() {
     Scene scene;
     const auto add = [&](Shape shape, vec3 position) {

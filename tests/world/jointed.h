@@ -12,6 +12,8 @@ Scene all_kinds();
 // A wheel on a motor with six spokes, the last of them with two joints and driven by a distant body at maximum force:
 // seven joints that share the hub, whose active set takes several rounds.
 Scene spokes();
+// Boxes that turn by springs, motors and their own speed about every axis that turns, into limits of up to ten turns.
+Scene turning();
 // As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
 Scene entangled();
 // Several copies of each of some mechanisms on bouncing ground: pairs, stars, chains and rings, that hang from the world, from a

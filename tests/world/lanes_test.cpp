@@ -248,6 +248,7 @@ TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever th
     for (const int lanes : tests::lanes_here({4, 8})) {
         CAPTURE(lanes);
         compare(tests::all_kinds(), 1, lanes, 60);
+        compare(tests::turning(), 2, lanes, 60);
         compare(tests::spokes(), 2, lanes, 10);
         compare(tests::entangled(), 1, lanes, 3);
     }

@@ -20,7 +20,7 @@ struct Member {
     uint32_t* record[SCREE_LANES];
 };
 
-// An axis of a joint. Rows that no block uses are not set.
+// An axis of a joint. But for their axes, rows that no block uses are not set.
 struct Row {
     JointAxis axis;
     JointRotor rotor;
@@ -37,6 +37,7 @@ struct JointInLanes {
     Row rows[6];
     Velocity other_a, other_b;  // of bodies that no impulse changes
     Uint active_set;
+    Float twist;                 // rad, whole turns included
     Bool holds;                  // it is not broken
     uint32_t used, used_by_all;  // bit per axis: by some blocks, by all
     uint32_t unknown, unknown_in_all;

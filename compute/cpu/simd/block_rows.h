@@ -30,7 +30,8 @@ struct Placement {
 };
 static_assert(sizeof(Placement) == offsetof(Joint, axes));
 struct JointState {
-    Uint active_set, broken, solved_axes, pad0;
+    Uint active_set, broken, solved_axes;
+    Float twist;
 };
 struct Impulses {  // the last members of a JointRow
     Float motor_impulse, limit_impulse, motor_change, limit_change;
@@ -130,8 +131,13 @@ SCREE_INLINE void take_joint(Pass& pass, uint32_t j) {
     const JointState state = gather_at<JointState>(joint.record, state_of_joint);
     joint.active_set = state.active_set;
     joint.holds = state.broken == 0u;
-    const JointConfiguration at = joint_configuration(placement.anchor_a, placement.frame_a, pose_of(pass, shape.a, placement.a),
-                                                      placement.anchor_b, placement.frame_b, pose_of(pass, shape.b, placement.b));
+#pragma GCC unroll 6
+    for (int k = 0; k < 6; ++k) joint.rows[k].axis = gather_at<JointAxis>(joint.record, axis_at(k));
+    const JointConfiguration at =
+        turned_configuration(joint_configuration(placement.anchor_a, placement.frame_a, pose_of(pass, shape.a, placement.a),
+                                                 placement.anchor_b, placement.frame_b, pose_of(pass, shape.b, placement.b)),
+                             placement.flags, state.twist, joint.rows[3].axis, joint.rows[4].axis, joint.rows[5].axis);
+    joint.twist = at.turned;
     const VelocityPair v{velocity_of(pass, shape.a, placement.a), velocity_of(pass, shape.b, placement.b)};
     joint.other_a = v.a;
     joint.other_b = v.b;
@@ -141,7 +147,6 @@ SCREE_INLINE void take_joint(Pass& pass, uint32_t j) {
 #pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) {
         Row& row = joint.rows[k];
-        row.axis = gather_at<JointAxis>(joint.record, axis_at(k));
         row.used = joint.holds && row.axis.mode != 0u;
         if (none(row.used)) continue;
         joint.used |= 1u << k;
@@ -151,6 +156,7 @@ SCREE_INLINE void take_joint(Pass& pass, uint32_t j) {
         row.row.motor_impulse = impulses.motor_impulse;
         row.row.limit_impulse = impulses.limit_impulse;
         row.row = placed_row(row.row, at, k, placement.flags, v, a, b, shape.a >= 0, shape.b >= 0, row.rotor.inertia, pass.p.h);
+        if (k == 3) row.axis = axis_after_turns(row.axis, at.turned, row.row.coordinate);
         row.acts = row.used && row_acts(row.axis, row.row);
         row.turn_a = turned_by(a, row.row.angular_a);
         row.turn_b = turned_by(b, row.row.angular_b);
@@ -186,6 +192,7 @@ SCREE_INLINE void write_joint(const Pass& pass, const JointInLanes& joint) {
         uint32_t* const state = joint.record[lane] + state_of_joint;
         state[0] = joint.active_set.v[lane];
         state[2] = solved_axes.v[lane];
+        if (joint.holds.v[lane]) state[3] = floatBitsToUint(joint.twist).v[lane];
     }
 }
 

@@ -5,6 +5,7 @@
 #include "compute/cpu/simd/simd_types.h"
 
 #include "shaders/physics/solve/joint_matrix.h"
+#include "shaders/physics/solve/joint_turns.h"
 #undef float
 #undef bool
 
@@ -30,12 +31,8 @@ struct Placement {
 static_assert(sizeof(Placement) == offsetof(Joint, axes));
 constexpr size_t axes_at = offsetof(Joint, axes) / sizeof(Words), rows_at = offsetof(Joint, rows) / sizeof(Words);
 constexpr size_t rotors_at = offsetof(Joint, rotors) / sizeof(Words), words_of_rotor = sizeof(JointRotor) / sizeof(Words);
+constexpr size_t twist_at = offsetof(Joint, twist) / sizeof(Words);
 constexpr size_t words_of_axis = sizeof(JointAxis) / sizeof(Words), words_of_row = sizeof(JointRow) / sizeof(Words);
-
-struct AxisHead {
-    uint mode;
-    Float lower, upper, stiffness;
-};
 
 SCREE_INLINE Float loaded(const JointLanes& from) {
     Floats floats;
@@ -69,8 +66,8 @@ SCREE_INLINE Uint axis_numbers() {
 // A joint per lane; lanes beyond the end repeat the last one.
 void place(const WideJoint* joints, size_t count, float h) {
     for (size_t first = 0; first < count; first += lanes) {
-        const uint32_t *record[lanes], *pose_a[lanes], *pose_b[lanes], *velocity_a[lanes], *velocity_b[lanes], *mass_a[lanes],
-            *mass_b[lanes];
+        uint32_t* record[lanes];
+        const uint32_t *pose_a[lanes], *pose_b[lanes], *velocity_a[lanes], *velocity_b[lanes], *mass_a[lanes], *mass_b[lanes];
         for (size_t lane = 0; lane < lanes; ++lane) {
             const WideJoint& joint = joints[first + lane < count ? first + lane : count - 1];
             record[lane] = joint.record;
@@ -82,14 +79,23 @@ void place(const WideJoint* joints, size_t count, float h) {
             mass_b[lane] = joint.mass_b;
         }
         const Placement joint = gather_at<Placement>(record);
-        const JointConfiguration at = joint_configuration(joint.anchor_a, joint.frame_a, gather_at<Pose>(pose_a), joint.anchor_b,
-                                                          joint.frame_b, gather_at<Pose>(pose_b));
+        JointAxis axes[6];
+#pragma GCC unroll 6
+        for (int k = 0; k < 6; ++k) axes[k] = gather_at<JointAxis>(record, axes_at + k * words_of_axis);
+        Float twist;
+        for (size_t lane = 0; lane < lanes; ++lane) twist.v[lane] = __builtin_bit_cast(float, record[lane][twist_at]);
+        const JointConfiguration at =
+            turned_configuration(joint_configuration(joint.anchor_a, joint.frame_a, gather_at<Pose>(pose_a), joint.anchor_b,
+                                                     joint.frame_b, gather_at<Pose>(pose_b)),
+                                 joint.flags, twist, axes[3], axes[4], axes[5]);
+        for (size_t lane = 0; lane < lanes && first + lane < count; ++lane)
+            if (joints[first + lane].holds) record[lane][twist_at] = floatBitsToUint(at.turned).v[lane];
         const VelocityPair v{gather_at<Velocity>(velocity_a), gather_at<Velocity>(velocity_b)};
         const Mass a = gather_at<Mass>(mass_a), b = gather_at<Mass>(mass_b);
         const Bool has_a = joint.block_body_a != NONE, has_b = joint.block_body_b != NONE;
 #pragma GCC unroll 6
         for (int k = 0; k < 6; ++k) {
-            const Bool used = gather_at<AxisHead>(record, axes_at + k * words_of_axis).mode != 0u;
+            const Bool used = axes[k].mode != 0u;
             if (none(used)) continue;
             const size_t row_at = rows_at + k * words_of_row;
             Float inertia;

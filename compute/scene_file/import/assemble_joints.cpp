@@ -22,27 +22,19 @@ dvec3 any_normal(const dvec3& x) {
     return glm::normalize(glm::cross(side, x));
 }
 
-std::optional<Limits> limits_of(const ModelJoint& joint, double sign, Notes& notes) {
+std::optional<Limits> limits_of(const ModelJoint& joint, double sign) {
     if (!joint.limits) return std::nullopt;
     auto [lower, upper] = *joint.limits;
     if (lower > upper) refuse(joint.origin, "the limits are reversed: the lower is above the upper");
     if (sign < 0) lower = -std::exchange(upper, -lower);
-    if (joint.kind == ModelJoint::Kind::slide) return Limits{static_cast<float>(lower), static_cast<float>(upper)};
-    if (lower <= -half_turn && upper >= half_turn) {
-        if (upper - lower < 20 * half_turn)
-            notes.add(joint.origin, "limits", "a whole turn or more to either side is no limit here");
-        return std::nullopt;
-    }
-    if (lower < -half_turn || upper > half_turn)
-        notes.add(joint.origin, "limits", "are cut to half a turn to either side of the joint's zero");
-    lower = std::clamp(lower, -half_turn, half_turn), upper = std::clamp(upper, -half_turn, half_turn);
-    return Limits{static_cast<float>(lower), static_cast<float>(upper)};
+    constexpr auto most = static_cast<double>(unlimited);
+    return Limits{static_cast<float>(std::clamp(lower, -most, most)), static_cast<float>(std::clamp(upper, -most, most))};
 }
 
 // The joint's behaviour along or about an axis that may point the other way.
 Axis axis_of(const ModelJoint& joint, double sign, Notes& notes) {
     Axis axis;
-    axis.limits = limits_of(joint, sign, notes);
+    axis.limits = limits_of(joint, sign);
     const bool bounded = joint.greatest_force < static_cast<double>(unlimited);
     if (joint.stiffness > 0 || joint.damping > 0) {
         axis.spring = Spring{static_cast<float>(joint.stiffness), static_cast<float>(joint.damping),
@@ -64,7 +56,15 @@ struct Made {
     JointKind kind;
     dvec3 anchor;  // file's world, all coordinates 0
     dquat turn;
+    std::optional<float> angle{};  // at the beginning, about x
 };
+
+// A scene is told the angle of a hinge unless the poses and limits do.
+std::optional<float> angle_of(const ModelJoint& joint) {
+    const bool outside = joint.limits && (joint.limits->first > 0 || joint.limits->second < 0);
+    if (joint.start == 0 && !outside) return std::nullopt;
+    return static_cast<float>(joint.start);
+}
 
 Axis locked() {
     return {.locked = true};
@@ -93,9 +93,9 @@ Made single(const ModelJoint& joint, const Placed& body, Notes& notes) {
     if (joint.kind == ModelJoint::Kind::ball) return ball_of(joint, body, notes);
     const dvec3 x = body.turn * glm::normalize(joint.axis);
     const Axis axis = axis_of(joint, 1, notes);
-    JointKind kind = Hinge{axis};
-    if (joint.kind == ModelJoint::Kind::slide) kind = Slider{axis};
-    return {kind, body * joint.anchor, turn_of(x, any_normal(x))};
+    Made made{Hinge{axis}, body * joint.anchor, turn_of(x, any_normal(x)), angle_of(joint)};
+    if (joint.kind == ModelJoint::Kind::slide) made.kind = Slider{axis}, made.angle.reset();
+    return made;
 }
 
 // Slides along, and then hinges about, the axes of one frame, with one anchor: a joint of six degrees.
@@ -136,7 +136,9 @@ std::optional<Made> together(const std::vector<ModelJoint>& joints, const Placed
     if (hinges.size() == 3)
         notes.add(joints[0].origin, "hinges",
                   "three at one point become a joint of six degrees; limits and springs are those of its swing and twist");
-    return Made{kind, body * (hinges.empty() ? joints[0] : *hinges[0]).anchor, body.turn * turn_of(x, y)};
+    Made made{kind, body * (hinges.empty() ? joints[0] : *hinges[0]).anchor, body.turn * turn_of(x, y)};
+    if (!hinges.empty()) made.angle = angle_of(*hinges.back());
+    return made;
 }
 
 struct End {  // of a joint
@@ -153,6 +155,7 @@ End end_at(const Assembly& all, std::size_t body) {
 Joint connect(Assembly& all, const Made& made, const End& a, const End& b, const Origin& origin) {
     Joint joint;
     joint.kind = made.kind;
+    joint.angle = made.angle;
     joint.a = a.scene_body, joint.b = b.scene_body;
     const Placed in_a = inverse(a.zero) * Placed{made.anchor, made.turn}, in_b = inverse(b.zero) * Placed{made.anchor, made.turn};
     joint.anchor_a = vec3(in_a.position), joint.anchor_b = vec3(in_b.position);

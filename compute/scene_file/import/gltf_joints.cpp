@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "compute/scene/double_quaternion.h"
 
@@ -16,13 +16,13 @@ struct GltfAxes {
 };
 
 void read_limit(GltfValue limit, GltfAxes& axes) {
-    const double least = limit.number("min", -1e30), most = limit.number("max", 1e30);
+    constexpr double bound = static_cast<double>(unlimited);
+    const double least = limit.number("min", -bound), most = limit.number("max", bound);
     if (least > most) limit.refuse("\"min\" is above \"max\"");
     const bool soft = limit.has("stiffness");
     limit.number("stiffness", 0), limit.number("damping", 0);
     if (soft) limit.note("stiffness", "of limits is left out: they are stiff");
-    for (const auto& [key, list, bound] :
-         {std::tuple{"linearAxes", axes.linear, 1e30}, std::tuple{"angularAxes", axes.angular, std::numbers::pi}}) {
+    for (const auto& [key, list] : {std::pair{"linearAxes", axes.linear}, std::pair{"angularAxes", axes.angular}}) {
         const GltfValue named = limit.at(key);
         if (named.size() > 1 && !(least == 0 && most == 0))
             limit.note(key, "of several axes bound each of them, not their distance");

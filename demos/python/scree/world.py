@@ -619,7 +619,10 @@ class World:
 
     # ---- joints and vehicles
     def joints(self) -> "np.recarray[Any, Any]":
-        """All joints: force (3,), N, and torque (3,), N m, on b, max_force, max_torque, broken, gap (m), coordinates (6,)."""
+        """All joints: force (3,), N, and torque (3,), N m, on b, max_force, max_torque, broken, gap (m), coordinates (6,).
+
+        Coordinates: x, y, z (m), twist, swing_y, swing_z (rad); the angle of a hinge, a twist or a swing alone counts turns.
+        """
         return self._native.joints().view(np.recarray)
 
     def add_joint(self, kind: JointKind, a: Optional[int] = None, b: Optional[int] = None, *, anchor: Optional[Vector] = None,

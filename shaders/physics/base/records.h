@@ -331,7 +331,7 @@ struct VelocityDelta {     // velocity change of one body by one contact; summed
 
 // ---- joints
 // A joint has six axes: translation along x, y and z of its frame in A, the twist about x, and the swing about y and z.
-// An axis's coordinate is the position of B relative to A along or about it.
+// An axis's coordinate is the position of B relative to A along or about it. Where B turns about one axis alone, that is x.
 CONSTANT uint AXIS_LOCKED = 1u;
 CONSTANT uint AXIS_LIMITED = 2u;
 CONSTANT uint AXIS_MOTOR = 4u;   // velocity motor; friction is a motor of speed 0
@@ -371,6 +371,7 @@ CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's; its
 CONSTANT uint JOINT_CONE = 2u;      // swing axis y is the one B has swung about, with the whole swing as coordinate
 CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies collide with each other
 CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis, so swing axes exclude its twist
+CONSTANT uint JOINT_SWINGS = 16u;   // B may swing half a turn about any axis, where its twist is anything: no turns are counted
 // The active set: each axis has four bits of Joint.active_set.
 CONSTANT uint MOTOR_AT_MIN = 1u;  // the motor is at its limit, negative
 CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
@@ -396,8 +397,8 @@ struct Joint {
     uint active_set;   // per axis
     uint broken;       // 1: the joint has broken
     uint solved_axes;  // bit per axis that is an unknown of the pass's equations
-    uint pad0;
-    vec3 force;  // on B: sum of impulses in a step, N s; then the mean, N
+    float twist;       // rad, whole turns included (joint_turns.h)
+    vec3 force;        // on B: sum of impulses in a step, N s; then the mean, N
     float max_force;
     vec3 torque;  // as force, N m
     float max_torque;

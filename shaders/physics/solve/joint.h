@@ -45,7 +45,7 @@ struct JointConfiguration {
     vec3 z;
     float swing_z;
     vec3 angular_a;  // from A's centre to its anchor, m
-    float pad0;
+    float turned;    // the twist with its whole turns, rad
     vec3 angular_b;
     float pad1;
     vec3 gap;  // from A's anchor to B's, m
@@ -91,7 +91,7 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     vec3 x_b = axes_of(turn_b).x;
     at.x_b = x_b;
     at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
-    at.pad0 = 0.0f;
+    at.turned = at.twist;
     at.pad1 = 0.0f;
     at.pad2 = 0.0f;
     at.pad3 = 0.0f;

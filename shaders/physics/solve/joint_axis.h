@@ -11,7 +11,7 @@
 #ifndef SCREE_PHYSICS_JOINT_AXIS_H
 #define SCREE_PHYSICS_JOINT_AXIS_H
 
-#include "shaders/physics/solve/joint.h"
+#include "shaders/physics/solve/joint_turns.h"
 
 LAWS_BEGIN
 

@@ -190,6 +190,7 @@ JointAxis axis_of(uint j, uint k) {
         axis.rest = JOINT(j).axes[k].rest;
     else if (axis.mode != 0u)
         axis = JOINT(j).axes[k];
+    if (k == 3u && axis.mode != 0u) axis = axis_after_turns(axis, JOINT(j).twist, JOINT(j).rows[k].coordinate);
     return axis;
 }
 JointRotor rotor_of(uint j, uint k, JointAxis axis) {
@@ -296,6 +297,7 @@ void take_bodies(bool after_contacts) {
 // Jacobian rows of a joint at the present poses.
 void place_rows(uint j) {
     JointConfiguration at = configuration_of(block_first_joint + j);
+    JOINT(j).twist = at.turned;
     VelocityPair v = couple_of(j);
     uint flags = JOINT(j).flags;
     Mass mass_a = mass_of_side(side_a(j)), mass_b = mass_of_side(side_b(j));
