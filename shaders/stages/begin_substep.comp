@@ -1,4 +1,4 @@
-// Begins a substep for each body: warm start, gravity, forces. push.pass: 1 in the first substep.
+// Begins a substep for each body: warm start, gravity, forces. push.pass: PASS_FIRST in the first substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
