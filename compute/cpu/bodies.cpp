@@ -9,6 +9,7 @@
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
+#include "shaders/physics/base/passes.h"
 #include "shaders/physics/extra/grab_spring.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
@@ -179,7 +180,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
 
 void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
     if (state.counted().overflow) return;
-    const std::uint32_t first = pass & 1, left = pass >> 1;
+    const std::uint32_t first = pass & physics::PASS_FIRST, left = pass >> physics::PASS_FOLLOWING;
     if (first != 0) list_moving_bodies(state);
     for (std::size_t i = 0; i < state.fixed().actions; ++i) {
         const physics::Action& action = state.actions[i];

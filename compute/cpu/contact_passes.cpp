@@ -3,7 +3,8 @@
 
 #include "compute/cpu/contact_runs.h"
 #include "compute/cpu/stages.h"
-#include "shaders/physics/solve/contact_block.h"
+#include "shaders/physics/base/passes.h"
+#include "shaders/physics/solve/contact_pass.h"
 #include "shaders/physics/solve/contact_preparation.h"
 
 namespace scree::reference {
@@ -14,10 +15,13 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
-// Read only where restitution is possible.
-physics::vec4 impact_state(const State& state, const physics::Constraint& c) {
-    if (!(c.restitution > 0)) return physics::vec4(0);
-    return physics::impact_state(state.forces[c.a], state.forces[c.b], state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
+// Read only where restitution is possible. `debt`: the contact's part of its bodies' debts.
+physics::ImpactContext around_impact(const State& state, const physics::Constraint& c, float debt = 0) {
+    if (!(c.restitution > 0)) return physics::no_impact_context();
+    physics::ImpactContext around =
+        physics::impact_context(state.forces[c.a], state.forces[c.b], state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
+    around.debt = debt;
+    return around;
 }
 
 physics::Surface surface_on(const State& state, const physics::BodyProperties& row) {
@@ -148,12 +152,6 @@ physics::BlockLoad load_of_block(const State& state, std::size_t first) {
     return load;
 }
 
-// The first contact's impulse with the load of all, by which the block has its part of both masses.
-physics::Impulse with_load(physics::Impulse impulse, const physics::BlockLoad& load) {
-    impulse.normal_sum = load.normal_sum;
-    return impulse;
-}
-
 // The weight of a block in mass splitting goes with its last contact.
 float weight_of_block(float weight, bool is_last, float& of_block) {
     of_block = std::max(of_block, weight);
@@ -199,54 +197,40 @@ void prepare_block(State& state, std::size_t first) {
 void solve_block(State& state, std::size_t first) {
     const physics::Constraint& of_first = state.constraints[first];
     if (physics::follows_in_block(of_first)) return;
-    const physics::BlockLoad load = load_of_block(state, first);
-    const physics::Impulse lent = with_load(state.impulse(first), load);
-    const physics::Mass ma = physics::split_mass(state.masses[of_first.a], lent, state.fixed());
-    const physics::Mass mb = physics::split_mass(state.masses[of_first.b], lent, state.fixed());
-    const float part = physics::part_of_stiffness(load);
-    physics::VelocityPair v = velocities_of(state, of_first);
+    const physics::BlockBodies bodies =
+        physics::biased_bodies(state.masses[of_first.a], state.masses[of_first.b], state.impulse(first),
+                               load_of_block(state, first), velocities_of(state, of_first), state.fixed());
+    physics::VelocityPair v = bodies.moved;
     for_each_of_block(state, first, [&](std::size_t i, bool) {
         const physics::Constraint& c = state.constraints[i];
-        const physics::SolveResult after =
-            physics::solve_contact(c, state.impulse(i), v, ma, mb, impact_state(state, c), part, felt_by(state, c.a));
+        const physics::PassOutcome after =
+            physics::biased_pass(c, state.impulse(i), v, bodies, around_impact(state, c), felt_by(state, c.a));
         state.keep_impulse(i, after.impulse);
-        hand_out(state, c, physics::to_body_deltas(v, after.pair_velocity, ma, mb), after.impulse.impact_weight,
-                 physics::impact_debt(after.impulse));
-        v = after.pair_velocity;
+        hand_out(state, c, after.share, after.weight, after.passed_on);
+        v = after.velocity;
     });
 }
 
 void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
-    const bool last = (pass & 1) != 0, begins = (pass & 2) != 0, felt = (pass & 4) != 0;
     const physics::Constraint& of_last = state.constraints[last_contact];
     if (physics::leads_in_block(of_last)) return;
-    const physics::BlockLoad load = load_of_block(state, last_contact);
-    const physics::Impulse lent = with_load(state.impulse(last_contact), load);
-    const physics::Mass ma = physics::impact_mass(lent, state.masses[of_last.a], state.forces[of_last.a], state.fixed());
-    const physics::Mass mb = physics::impact_mass(lent, state.masses[of_last.b], state.forces[of_last.b], state.fixed());
-    const float part = physics::part_of_stiffness(load);
-    const physics::VelocityPair moved = velocities_of(state, of_last);
-    physics::VelocityPair v = moved;
+    const physics::BlockBodies bodies = physics::relax_bodies(
+        state.masses[of_last.a], state.forces[of_last.a], state.masses[of_last.b], state.forces[of_last.b],
+        state.impulse(last_contact), load_of_block(state, last_contact), velocities_of(state, of_last), state.fixed());
+    physics::VelocityPair v = bodies.moved;
     float of_block = 0;
     for_each_of_block(state, last_contact, [&](std::size_t i, bool is_last) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Impulse biased = state.impulse(i);
-        const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], ma, state.impact_debts[c.b],
-                                                  state.forces[c.b], mb);
-        const physics::SolveResult after = physics::relax_contact(c, biased, moved, v, ma, mb, impact_state(state, c), debt, part,
-                                                                  last ? 1.0f : 0.0f, felt_by(state, c.a));
-        if (felt) {
-            const float carried = physics::solved_impulse(after.impulse);
-            state.carried[i] = begins ? carried : state.carried[i] + carried;
-        }
-        physics::Impulse impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
-        impulse.normal_sum = physics::normal_impulse(impulse);
-        state.keep_impulse(i, impulse);
-        physics::VelocityPair share = physics::to_body_deltas(v, after.pair_velocity, ma, mb);
-        const float weight = physics::counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(state, c.a));
-        if (!last) share = physics::warm_start(c, impulse, share, ma, mb);
-        hand_out(state, c, share, weight_of_block(weight, is_last, of_block), impulse.normal_sum);
-        v = after.pair_velocity;
+        const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], bodies.a,
+                                                  state.impact_debts[c.b], state.forces[c.b], bodies.b);
+        const physics::PassOutcome after = physics::relax_pass(c, biased, v, bodies, around_impact(state, c, debt),
+                                                               (pass & physics::PASS_LAST) != 0, felt_by(state, c.a));
+        if ((pass & physics::PASS_SUMS) != 0)
+            state.carried[i] = (pass & physics::PASS_FIRST) != 0 ? after.borne : state.carried[i] + after.borne;
+        state.keep_impulse(i, after.impulse);
+        hand_out(state, c, after.share, weight_of_block(after.weight, is_last, of_block), after.passed_on);
+        v = after.velocity;
     });
 }
 
@@ -301,15 +285,15 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const auto alone = [&](std::size_t i) { relax_block(state, i, pass); };
-    const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
+    const bool last = (pass & physics::PASS_LAST) != 0;
     if (last && state.fixed().sleep_steps != physics::NO_SLEEP) {
         const bool has_surfaces = state.features().surfaces;
         for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, i, has_surfaces); });
     }
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
-        if (felt) tables.carried = state.carried.data();
-        tables.first = first;
+        if ((pass & physics::PASS_SUMS) != 0) tables.carried = state.carried.data();
+        tables.first = (pass & physics::PASS_FIRST) != 0;
         tables.last = last;
         for_each_group(state, threads, tables, *wide, wide->relax, alone);
     } else {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "shaders/physics/base/passes.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 
@@ -123,12 +124,12 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     if (features.joints) s.add("prepare_joints");
     // solver
     for (int substep = 1; substep <= substeps; ++substep) {
-        const std::uint32_t first = substep == 1, last = substep == substeps;
-        s.add("begin_substep", first | static_cast<std::uint32_t>(substeps - substep) << 1);
+        const std::uint32_t first = substep == 1 ? physics::PASS_FIRST : 0, last = substep == substeps ? physics::PASS_LAST : 0;
+        s.add("begin_substep", first | static_cast<std::uint32_t>(substeps - substep) << physics::PASS_FOLLOWING);
         s.add("solve_contacts");
         if (features.joints) s.add("solve_joints");
         s.add("move_bodies");
-        s.add("relax_contacts", last | first << 1 | (features.sums ? 4u : 0u));
+        s.add("relax_contacts", last | first | (features.sums ? physics::PASS_SUMS : 0));
         if (features.joints) s.add("relax_joints", last);
     }
     s.add("end_step");

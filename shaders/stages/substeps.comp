@@ -12,7 +12,7 @@ void main() {
     uint bodies = PARAMETERS.bodies, contacts = COUNTED.solver_contacts;
     uint before = push.pass & 0xFFu, count = push.pass >> 8 & 0xFFu, whole = push.pass >> 16;
     for (uint substep = before + 1u; substep <= before + count; ++substep) {
-        uint pass = (substep == whole ? LAST_SUBSTEP : 0u) | (substep == 1u ? FIRST_SUBSTEP : 0u);
+        uint pass = (substep == whole ? PASS_LAST : 0u) | (substep == 1u ? PASS_FIRST : 0u);
         FOR_EACH(i, PARAMETERS.actions) drive_body(i, whole - substep);
         FOR_EACH(i, bodies) begin_body(i, substep == 1u);
         end_part();

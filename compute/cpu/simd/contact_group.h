@@ -105,12 +105,12 @@ struct Group {
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
 
-    SCREE_INLINE vec4 impacts_state(const WideTables& tables, const Parameters& p) const {
-        if (none(c.restitution > 0.0f)) return vec4(0.0f);
-        return choose(c.restitution > 0.0f,
-                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
-                                   gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
-                      vec4(0.0f));
+    SCREE_INLINE ImpactContext around_impact(const WideTables& tables, const Parameters& p) const {
+        if (none(c.restitution > 0.0f)) return no_impact_context();
+        return choose_record(c.restitution > 0.0f,
+                             impact_context(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
+                                            gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
+                             no_impact_context());
     }
     SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
         to_slots(tables, live, c, share, weight, normal_impulse);

@@ -156,14 +156,12 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         unloaded = 0;
         const Group<plain> group(tables, first, last);
         prefetch_next<plain>(tables, first, last, group.c);
-        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after =
-            solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
-        const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
+        const BlockBodies bodies{split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p),
+                                 split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p), group.before, 1.0f};
+        const PassOutcome after = biased_pass(group.c, group.impulse, group.before, bodies, group.around_impact(tables, p), p);
         group.keep_solved(after.impulse);
         if (tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
+        group.hand_out(tables, after.share, after.weight, after.passed_on);
     }
 }
 void solve(const WideTables& tables, std::size_t first, std::size_t last) {
@@ -194,11 +192,10 @@ SCREE_INLINE Float debts(const WideTables& tables, const Group<plain>& group, co
 }
 
 // Adds this substep's normal impulses to the contacts' sums over the step.
-SCREE_INLINE void feel(const WideTables& tables, const Indices& contacts, const Impulse& impulse, std::size_t items) {
-    const Float carried = solved_impulse(impulse);
+SCREE_INLINE void feel(const WideTables& tables, const Indices& contacts, Float borne, std::size_t items) {
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
         float& sum = tables.carried[contacts.of[lane]];
-        sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
+        sum = tables.first ? borne.v[lane] : sum + borne.v[lane];
     }
 }
 
@@ -211,20 +208,16 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         if (unloaded != 0 && !tables.watched && tables.carried == nullptr && relax_unloaded<plain>(tables, first, last)) continue;
         const Group<plain> group(tables, first, last);
         prefetch_next<plain>(tables, first, last, group.c);
-        const Impulse& was = group.impulse;
-        const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
-                                                debts(tables, group, ma, mb), 1.0f, tables.last ? 1.0f : 0.0f, p);
-        if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
-        Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
-        impulse.normal_sum = normal_impulse(impulse);
-        VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, ma, mb, p);
-        if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
-        group.keep(impulse);
+        const BlockBodies bodies{shared(group.impulse, tables, group.a, p), shared(group.impulse, tables, group.b, p),
+                                 group.before, 1.0f};
+        ImpactContext around = group.around_impact(tables, p);
+        around.debt = debts(tables, group, bodies.a, bodies.b);
+        const PassOutcome after = relax_pass(group.c, group.impulse, group.before, bodies, around, tables.last, p);
+        if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.borne, last - first);
+        group.keep(after.impulse);
         if (tables.last || tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.hand_out(tables, share, weight, impulse.normal_sum);
-        unloaded = is_unloaded(impulse, share, weight);
+        group.hand_out(tables, after.share, after.weight, after.passed_on);
+        unloaded = is_unloaded(after.impulse, after.share, after.weight);
     }
 }
 void relax(const WideTables& tables, std::size_t first, std::size_t last) {

@@ -20,7 +20,7 @@
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_impulse.h"
-#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/contact_pass.h"
 #include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"

@@ -72,20 +72,20 @@ CONSTANT float ARRIVAL = 4.0f;
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
 // are still apart. `part`: part_of_stiffness() of its block, 1 for a contact by itself.
-LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, float part,
+LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, ImpactContext around, float part,
                               Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool gone = impulse.slide_distance > c.slide_limit;
     // Push-out speed, divided by the split factor because the pushes of overlapping neighbours add up from layer to
     // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
-    bool bounces = may_rebound(c, state);
+    bool bounces = may_rebound(c, around);
     vec4 striking = vec4(0.0f);
     if (none(bounces)) {
         impulse = with_impact(impulse, impulse, false);  // also of an impact that lasts while restitution is taken away
     } else {
-        impulse = with_impact(impulse, impact_in_progress(c, impulse, v, state, parameters), bounces && !gone);
-        striking = choose(bounces, impact_velocities(c, impulse, v, a, b, state, parameters), vec4(0.0f));
+        impulse = with_impact(impulse, impact_in_progress(c, impulse, v, around, parameters), bounces && !gone);
+        striking = choose(bounces, impact_velocities(c, impulse, v, a, b, around, parameters), vec4(0.0f));
     }
     bool strikes = is_any(striking);
     // A single sweep would leave what falls flat without restitution with a spin.
@@ -127,7 +127,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     if (!none(strikes || is_impact(impulse)))
-        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, a, b, state, parameters);
+        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, a, b, around, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
@@ -138,8 +138,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 LAW bool drives(Mass mass, Velocity velocity) {
     return mass.inverse_mass == 0.0f && dot3(velocity.linear, velocity.linear) + dot3(velocity.angular, velocity.angular) > 0.0f;
 }
-LAW float arrival_speed(Constraint c, VelocityPair v, Mass a, Mass b, float last, Parameters parameters) {
-    bool goes_on = last > 0.0f || drives(a, v.a) || drives(b, v.b);
+LAW float arrival_speed(Constraint c, VelocityPair v, Mass a, Mass b, bool last, Parameters parameters) {
+    bool goes_on = last || drives(a, v.a) || drives(b, v.b);
     float least = choose(goes_on, 1.0e30f, ARRIVAL * fall_speed(parameters));
     return choose(c.restitution > 0.0f, 0.0f, least);
 }
@@ -192,10 +192,9 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
 }
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
-// applies restitution and friction. `debt`: part_of_debts(); `part`: part_of_stiffness(); `last`: 1 in the last substep of a
-// step, else 0.
-LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b, vec4 state,
-                              float debt, float part, float last, Parameters parameters) {
+// applies restitution and friction. `part`: part_of_stiffness(); `last`: in the last substep of a step.
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b,
+                              ImpactContext around, float part, bool last, Parameters parameters) {
     bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
@@ -208,7 +207,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     result.impulse = impulse;
     result.pair_velocity = v;
     if (!none(struck))
-        result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, state, debt);
+        result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, around);
     impulse = result.impulse;
     v = result.pair_velocity;
     float arrival = arrival_speed(c, v, a, b, last, parameters);

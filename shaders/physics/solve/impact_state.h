@@ -29,17 +29,31 @@ LAW bool is_under_blow(BodyMass body, Parameters parameters) {
     return is_blow(normal_impulses_of(body.split_state), body.inverse_mass, parameters);
 }
 
-// xyz: relative acceleration (B minus A), m/s^2; w: 1 if one of the two is on joints, plus 2 if one is under a blow.
-LAW vec4 impact_state(BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b, Parameters parameters) {
-    float on_joints = choose(a.impacts < 0.0f || b.impacts < 0.0f, 1.0f, 0.0f);
-    float under_blow = choose(is_under_blow(mass_a, parameters) || is_under_blow(mass_b, parameters), 2.0f, 0.0f);
-    return vec4(b.acceleration - a.acceleration, on_joints + under_blow);
+// Of a contact with restitution, in a pass.
+struct ImpactContext {
+    vec3 acceleration;  // of B relative to A, m/s^2
+    float debt;         // the contact's part of its bodies' debts (restitution.h), J; in the relax pass
+    bool on_joints;     // one of the bodies is on joints
+    bool under_blow;    // one of the bodies is under a blow
+};
+LAW ImpactContext no_impact_context() {
+    ImpactContext around;
+    around.acceleration = vec3(0.0f);
+    around.debt = 0.0f;
+    around.on_joints = false;
+    around.under_blow = false;
+    return around;
 }
-LAW bool is_on_joints(vec4 state) {
-    return state.w == 1.0f || state.w == 3.0f;
+LAW ImpactContext impact_context(BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b, Parameters parameters) {
+    ImpactContext around;
+    around.acceleration = b.acceleration - a.acceleration;
+    around.debt = 0.0f;
+    around.on_joints = a.impacts < 0.0f || b.impacts < 0.0f;
+    around.under_blow = is_under_blow(mass_a, parameters) || is_under_blow(mass_b, parameters);
+    return around;
 }
-LAW bool may_rebound(Constraint c, vec4 state) {
-    return c.restitution > 0.0f && state.w < 2.0f;
+LAW bool may_rebound(Constraint c, ImpactContext around) {
+    return c.restitution > 0.0f && !around.under_blow;
 }
 
 LAWS_END

@@ -43,8 +43,8 @@ CONSTANT float IMPACT_DISTANCE = 0.01f;
 // Slower approaches have no restitution, m/s: what rests on a surface approaches at up to the speed of a fall in two
 // steps, and bodies beside each other do not. (With a lower threshold for the bodies that an impact has just pushed, a
 // heap of 200 boxes gained 2e-4 of its energy in a step.)
-LAW float slowest_impact(Constraint c, vec4 state, Parameters parameters) {
-    float pull = larger(abs(dot3(c.normal, parameters.gravity)), abs(dot3(c.normal, xyz(state))));
+LAW float slowest_impact(Constraint c, ImpactContext around, Parameters parameters) {
+    float pull = larger(abs(dot3(c.normal, parameters.gravity)), abs(dot3(c.normal, around.acceleration)));
     float threshold = choose(c.restitution_threshold > 0.0f, c.restitution_threshold, parameters.restitution_threshold);
     return larger(threshold, 2.0f * parameters.dt * pull);
 }
@@ -94,8 +94,8 @@ LAW JoinedPush joined_push(float pushed, float from, float to, float energy, flo
 CONSTANT float LEAST_RESPONSE = 0.0625f;
 
 // As a substep begins: what an impact of the last one has yet to return, by the velocities that it reached.
-LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, vec4 state, Parameters parameters) {
-    float gain = parameters.h * dot3(c.normal, xyz(state));  // by gravity since
+LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ImpactContext around, Parameters parameters) {
+    float gain = parameters.h * dot3(c.normal, around.acceleration);  // by gravity since
     float work = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool struck = uint(k) < point_count(c) && impulse.impact[k] > 0.0f;
@@ -129,10 +129,11 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
 
 // Normal velocities at which points strike, m/s, < 0; 0 for those that do not rebound. Measured before any point is
 // solved, because solving one turns the bodies at the others. The surface is met after a part of the substep.
-LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
+LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, ImpactContext around,
+                           Parameters parameters) {
     vec4 found = vec4(0.0f);
-    float gain = parameters.h * dot3(c.normal, xyz(state));
-    float slowest = slowest_impact(c, state, parameters);
+    float gain = parameters.h * dot3(c.normal, around.acceleration);
+    float slowest = slowest_impact(c, around, parameters);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) continue;
@@ -178,9 +179,9 @@ CONSTANT float MOST_STRUCK_MASS = 4.0f;
 // the rebound w that a single point would have, and the mass m on which it acts, m (w^2 - e^2 v^2) / 2 is what gravity adds
 // in the part of the substep that is flight: to the body, so that several impacts share it.
 LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4 normal_before, VelocityPair before,
-                              VelocityPair after, Mass a, Mass b, vec4 state, Parameters parameters) {
+                              VelocityPair after, Mass a, Mass b, ImpactContext around, Parameters parameters) {
     float e2 = c.restitution * c.restitution;
-    float pull = dot3(c.normal, xyz(state));
+    float pull = dot3(c.normal, around.acceleration);
     float whole = larger(a.split, b.split);
     float flights = 0.0f;
     // What presses again without a new impact, and would not rebound faster than from the slowest one, comes to rest: only
@@ -189,7 +190,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     for (int k = 0; k < 4; ++k)
         rests = rests || (impulse.impact[k] > 0.0f && striking[k] == 0.0f && impulse.normal[k] > normal_before[k]);
     float pushed_by = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
-    rests = rests && impulse.rebound_energy < 0.5f * (pushed_by * slowest_impact(c, state, parameters));
+    rests = rests && impulse.rebound_energy < 0.5f * (pushed_by * slowest_impact(c, around, parameters));
     impulse = with_impact(impulse, impulse, !rests);
     bool joined = impulse.flight_energy > 0.0f;  // a response
     for (int k = 0; k < 4; ++k) {
@@ -298,9 +299,8 @@ LAW VelocityPair before_motion(VelocityPair v, Mass a, Mass b, float h) {
 // `reached` are the constraint, the offset of the centres and the velocities of the biased pass, which did its work along that
 // normal: the bodies have moved since, and normal, lever arms and angular velocities with them (with one set of rows for both,
 // two balls off centre gained up to 20% of their energy at 150 m/s; with one set of velocities, two boxes a quarter at 50 m/s).
-// `debt`: the contact's part of the debts of both bodies, J.
 LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reached, Constraint c, Impulse impulse, VelocityPair v,
-                                 Mass a, Mass b, vec4 state, float debt) {
+                                 Mass a, Mass b, ImpactContext around) {
     float e2 = c.restitution * c.restitution;
     Impulse there = impulse;
     there.center_offset = offset;
@@ -314,12 +314,12 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     }
     // An approach that is left, or a speed of the push-out, is energy of the compression as well.
     ImpactMode before = impact_mode(met, there, reached, a, b);
-    bool joined = is_on_joints(state), answered = joined && impulse.impact_energy > 0.0f;
+    bool joined = around.on_joints, answered = joined && impulse.impact_energy > 0.0f;
     if (!none(answered)) before = of_assembly(before, impulse.flight_energy, answered);
     float rest = 0.5f * ((before.speed * before.speed) * reciprocal(before.inverse_effective_mass));
     bool compressed = pressed > 0.0f || before.speed < 0.0f;
     float flight = choose(answered, 0.0f, impulse.flight_energy * reciprocal(larger(a.split, b.split)));
-    float stored = impulse.rebound_energy - debt + flight - e2 * work;
+    float stored = impulse.rebound_energy - around.debt + flight - e2 * work;
     float energy = stored - choose(compressed, (1.0f - e2) * rest, 0.0f);
 
     ImpactMode mode = impact_mode(c, impulse, v, a, b);
@@ -349,7 +349,7 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
             choose(struck, pushed(result.pair_velocity, row, change, a, a.split, b, b.split), result.pair_velocity);
     }
     // Where all else stays as it is, the work is done at once.
-    bool passes_on = is_on_joints(state) || larger(a.split, b.split) > 1.001f;
+    bool passes_on = around.on_joints || larger(a.split, b.split) > 1.001f;
     bool lasts = passes_on && push > 0.0f && (energy > 0.0f || (joined && squared > 0.0f));
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;

@@ -2,6 +2,7 @@
 #ifndef SCREE_STAGES_PASS_BODIES_GLSL
 #define SCREE_STAGES_PASS_BODIES_GLSL
 
+#include "shaders/physics/base/passes.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/extra/grab_spring.h"
 #include "shaders/physics/extra/quarantine.h"

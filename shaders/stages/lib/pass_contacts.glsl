@@ -2,16 +2,26 @@
 #ifndef SCREE_STAGES_PASS_CONTACTS_GLSL
 #define SCREE_STAGES_PASS_CONTACTS_GLSL
 
+#include "shaders/physics/base/passes.h"
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/contact_block.h"
-#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/contact_pass.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 
-vec4 state_of_impacts(Constraint c) {
-    if (!(c.restitution > 0.0f)) return vec4(0.0f);
-    return impact_state(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
+ImpactContext around_impact(Constraint c) {
+    if (!(c.restitution > 0.0f)) return no_impact_context();
+    return impact_context(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
+}
+VelocityPair velocities_of(Constraint c) {
+    VelocityPair v;
+    v.a = READ(velocities, c.a);
+    v.b = READ(velocities, c.b);
+    return v;
+}
+void write_slots(Constraint c, VelocityPair share, float weight, float passed_on) {
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, passed_on);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, passed_on);
 }
 
 // Of the contact with which a pass over a block begins, and of those that come after it.
@@ -33,20 +43,6 @@ BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
 const uint SOLVED_MEMBERS =
     MEMBER_OF_ContactImpulse_normal | MEMBER_OF_ContactImpulse_friction | MEMBER_OF_ContactImpulse_stretch;
 
-// The biased pass over one contact of a block; returns the velocities of the split bodies.
-VelocityPair solve_one(uint i, Constraint c, Impulse impulse, VelocityPair before, Mass ma, Mass mb, float part) {
-    vec4 state = state_of_impacts(c);
-    SolveResult after = solve_contact(c, impulse, before, ma, mb, state, part, felt_by(c.a));
-    write_impulses(i, contact_impulse_of(after.impulse), SOLVED_MEMBERS | (ROLLS ? MEMBER_OF_ContactImpulse_rolling : 0u));
-    if (BOUNCES) write_impacts(i, contact_impact_of(after.impulse), EVERY_MEMBER);
-    VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    float blow = after.impulse.impact_weight;
-    float debt = BOUNCES ? impact_debt(after.impulse) : 0.0f;
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, debt);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, debt);
-    return after.pair_velocity;
-}
-
 // The biased pass.
 void solve_contact(uint place) {
     if (place >= COUNTED.solver_contacts) return;
@@ -54,23 +50,23 @@ void solve_contact(uint place) {
     Constraint c = narrowed(READ_GROUPED(constraints, i));
     if (BLOCKS && follows_in_block(c)) return;
     Impulse impulse = impulse_at(i);
-    BlockLoad load = load_of_block(i, c, impulse);
-    Impulse lent = impulse;
-    lent.normal_sum = load.normal_sum;
-    Mass ma = split_mass(READ(masses, c.a), lent, PARAMETERS);
-    Mass mb = split_mass(READ(masses, c.b), lent, PARAMETERS);
-    float part = BLOCKS ? part_of_stiffness(load) : 1.0f;
-    VelocityPair before;
-    before.a = READ(velocities, c.a);
-    before.b = READ(velocities, c.b);
+    BlockBodies bodies = biased_bodies(READ(masses, c.a), READ(masses, c.b), impulse, load_of_block(i, c, impulse),
+                                       velocities_of(c), PARAMETERS);
+    if (!BLOCKS) bodies.part = 1.0f;
+    VelocityPair v = bodies.moved;
     uint came_from = 0u;
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
             c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
         }
+        PassOutcome after = biased_pass(c, impulse, v, bodies, around_impact(c), felt_by(c.a));
+        write_impulses(here - 1u, contact_impulse_of(after.impulse),
+                       SOLVED_MEMBERS | (ROLLS ? MEMBER_OF_ContactImpulse_rolling : 0u));
+        if (BOUNCES) write_impacts(here - 1u, contact_impact_of(after.impulse), EVERY_MEMBER);
+        write_slots(c, after.share, after.weight, BOUNCES ? after.passed_on : 0.0f);
+        v = after.velocity;
         uint next = next_of_block(c, came_from);
-        before = solve_one(here - 1u, c, impulse, before, ma, mb, part);
         came_from = here;
         here = next;
     }
@@ -85,74 +81,41 @@ void show_quiet_steps(Constraint c, VelocityPair before) {
     if (c.slot_b != NONE) SET_FLOAT(neighbours_quiet, c.slot_b, quiet_a);
 }
 
-const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
-
-struct Relaxed {
-    VelocityPair velocity;  // of the split bodies
-    float weight;           // of the block in mass splitting, so far
-};
-// The relax pass over one contact of a block. It also writes the next substep's warm start, or in the last substep the quiet
-// steps of either body for the other, and sums the contact's impulse over the step where bodies may break. `moved`: the
-// velocities of the whole bodies.
-Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair moved, Mass ma, Mass mb,
-                  float part, uint pass) {
-    VelocityPair before = block.velocity;
-    vec4 state = state_of_impacts(c);
-    float debt = 0.0f;
-    if (BOUNCES && is_impact(impulse))
-        debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
-                             READ(forces, c.b), mb);
-    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part,
-                                      (pass & LAST_SUBSTEP) != 0u ? 1.0f : 0.0f, felt_by(c.a));
-    if (SUMS) {
-        float sum = solved_impulse(after.impulse);
-        if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
-        SET_FLOAT(carried, i, sum);
-    }
-    Impulse biased = impulse;
-    impulse = clear_impacts(after.impulse, point_count(c));
-    impulse.normal_sum = normal_impulse(impulse);
-    keep_impulse(i, impulse);
-    VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    if ((pass & LAST_SUBSTEP) == 0u)
-        share = warm_start(c, impulse, share, ma, mb);
-    else
-        show_quiet_steps(c, moved);
-    block.velocity = after.pair_velocity;
-    block.weight = larger(block.weight, counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(c.a)));
-    float weight = is_last ? block.weight : 0.0f;  // that of the whole block
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, impulse.normal_sum);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, impulse.normal_sum);
-    return block;
-}
-
-// The relax pass, from the last contact of the block to the first.
+// The relax pass, from the last contact of the block to the first. It also writes the next substep's warm start, or in the last
+// substep the quiet steps of either body for the other, and sums the contacts' impulses over the step where bodies may break.
 void relax_contact(uint place, uint pass) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
     Constraint c = narrowed(READ_GROUPED(constraints, i));
     if (BLOCKS && leads_in_block(c)) return;
     Impulse impulse = impulse_at(i);
-    Impulse lent = impulse;
-    BlockLoad load = load_of_block(i, c, impulse);
-    lent.normal_sum = load.normal_sum;
-    float part = BLOCKS ? part_of_stiffness(load) : 1.0f;
-    Mass ma = impact_mass(lent, READ(masses, c.a), READ(forces, c.a), PARAMETERS);
-    Mass mb = impact_mass(lent, READ(masses, c.b), READ(forces, c.b), PARAMETERS);
-    VelocityPair moved;
-    moved.a = READ(velocities, c.a);
-    moved.b = READ(velocities, c.b);
-    Relaxed block;
-    block.velocity = moved;
-    block.weight = 0.0f;
+    BlockBodies bodies = relax_bodies(READ(masses, c.a), READ(forces, c.a), READ(masses, c.b), READ(forces, c.b), impulse,
+                                      load_of_block(i, c, impulse), velocities_of(c), PARAMETERS);
+    if (!BLOCKS) bodies.part = 1.0f;
+    bool last = (pass & PASS_LAST) != 0u;
+    VelocityPair v = bodies.moved;
+    float weight = 0.0f;  // of the block in mass splitting, so far
     uint came_from = 0u;
     for (uint here = i + 1u; here != 0u;) {
         if (came_from != 0u) {
             c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
         }
+        ImpactContext around = around_impact(c);
+        if (BOUNCES && is_impact(impulse))
+            around.debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), bodies.a,
+                                        READ_FLOAT(impact_debts, c.b), READ(forces, c.b), bodies.b);
+        PassOutcome after = relax_pass(c, impulse, v, bodies, around, last, felt_by(c.a));
+        if (SUMS) {
+            float before = (pass & PASS_FIRST) != 0u ? 0.0f : uintBitsToFloat(WORD(carried, here - 1u));
+            SET_FLOAT(carried, here - 1u, (pass & PASS_FIRST) != 0u ? after.borne : before + after.borne);
+        }
+        keep_impulse(here - 1u, after.impulse);
+        if (last) show_quiet_steps(c, bodies.moved);
+        v = after.velocity;
+        weight = larger(weight, after.weight);
         uint next = next_of_block(c, came_from);
-        block = relax_one(here - 1u, c, impulse, block, next == 0u, moved, ma, mb, part, pass);
+        write_slots(c, after.share, next == 0u ? weight : 0.0f, after.passed_on);  // the weight of the whole block
         came_from = here;
         here = next;
     }

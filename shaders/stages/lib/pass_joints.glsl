@@ -17,6 +17,7 @@
 #ifndef SCREE_SMALL_BLOCKS
 #define SCREE_FUSED  // threads read from memory what others wrote before a barrier
 #endif
+#include "shaders/physics/base/passes.h"
 #include "shaders/stages/lib/stage.glsl"
 
 // after the declarations of the tables
@@ -580,7 +581,7 @@ uint rounds_end() {
 #endif
 }
 bool is_last_substep() {
-    return (push.pass & 1u) != 0u;
+    return (push.pass & PASS_LAST) != 0u;
 }
 
 void solve_block() {
