@@ -223,11 +223,10 @@ TEST_CASE("ways pass each other where their spheres stay apart all along") {
     tests::Noise noise(4);
     int passing = 0, meeting = 0;
     for (int i = 0; i < 3000; ++i) {
-        const float until[2] = {i % 3 == 0 ? 0.4f + 0.5f * noise() * noise() : 2,
-                                i % 4 == 0 ? 0.1f + 0.9f * noise() * noise() : 1};
+        const float until[2] = {i % 3 == 0 ? std::abs(noise()) : 2, i % 4 == 0 ? std::abs(noise()) : 1};
         Way ways[2];
         for (int k = 0; k < 2; ++k)
-            ways[k] = way_of(0.05f + 0.2f * std::abs(noise()), noise.vector(), noise.vector() * 3.0f, until[k]);
+            ways[k] = way_of(0.05f + 0.2f * std::abs(noise()), noise.vector(), noise.vector() * 2.0f, until[k]);
         float least = 1e30f;
         for (int step = 0; step <= 2000; ++step) {
             const float t = static_cast<float>(step) / 2000;
@@ -245,7 +244,7 @@ TEST_CASE("ways pass each other where their spheres stay apart all along") {
         }
     }
     CHECK(passing > 500);
-    CHECK(meeting > 500);
+    CHECK(meeting > 100);
 }
 
 TEST_CASE("nothing passes a plane by its size") {

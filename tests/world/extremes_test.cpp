@@ -80,7 +80,7 @@ Scene cloud(int count, float speed, float spread) {
         Body splinter;
         splinter.shape = Box{vec3(0.01f, 0.03f, 0.02f)};
         splinter.position = noise.vector() * 2.0f;
-        splinter.velocity = vec3(speed, 0, 0) + noise.vector() * spread;
+        splinter.velocity = vec3(speed / std::sqrt(3.0f)) + noise.vector() * spread;
         scene.bodies.push_back(splinter);
     }
     return scene;

@@ -47,7 +47,7 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps) {
 // Both boxes are found beyond all scenes in the first step.
 template <class Base, class... Arguments>
 std::unique_ptr<Runner> tearing(Arguments&&... arguments) {
-    return std::make_unique<tests::Poisoned<Base>>(std::vector<std::size_t>{0, 1}, 1, std::numeric_limits<float>::infinity(),
+    return std::make_unique<tests::Poisoned<Base>>(std::vector<std::size_t>{0, 1}, 1, 2e15f,
                                                    std::forward<Arguments>(arguments)...);
 }
 
