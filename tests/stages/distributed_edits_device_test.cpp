@@ -3,7 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "compute/device/make_device_runner.h"
+#include "compute/device/device_runner.h"
+#include "compute/distributed/distributed_runner.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/on_ranks.h"
 #include "tests/world/ownerless.h"
@@ -13,17 +14,19 @@ using namespace scree;
 
 namespace {
 
-void agree_on_devices(const Scene& scene, const tests::TellingScript& script) {
+void agree_on_devices(const Scene& scene, const tests::TellingScript& script, const tests::Poison& poison = {}) {
     std::vector<std::unique_ptr<Watched>> devices;  // one after the other: drivers are loaded once
     for (int r = 0; r < 2; ++r) devices.push_back(std::make_unique<Watched>());
     const std::vector<tests::Lines> told = tests::told_by_ranks(2, scene, script, [&](const std::shared_ptr<Exchange>& exchange) {
-        return make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]->device);
+        return poison.in<DistributedRunner>(exchange, 0, [device = devices[static_cast<std::size_t>(exchange->rank())]->device] {
+            return std::make_unique<DeviceRunner>(device);
+        });
     });
-    tests::check_alike(told, tests::told_by_one(scene, script));
+    tests::check_alike(told, tests::told_by_one(scene, script, poison));
 }
 
 void agree_on_devices(const tests::Ownerless& one) {
-    agree_on_devices(one.scene, one.script);
+    agree_on_devices(one.scene, one.script, one.poison);
 }
 
 }  // namespace

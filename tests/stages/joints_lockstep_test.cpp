@@ -59,7 +59,7 @@ TEST_CASE("joints of every kind give the same bits on both processors, and valid
 }
 
 TEST_CASE("joints that turn by several turns give the same bits on both processors") {
-    require_equal(turning(), 40);
+    require_equal(tests::turning(), 40);
 }
 
 TEST_CASE("joints that come and go while a world runs give the same bits on both processors") {

@@ -11,9 +11,9 @@ namespace {
 
 // `first`: the first line.
 void agree(const tests::Ownerless& one, const std::string& first) {
-    const tests::Lines expected = tests::told_by_one(one.scene, one.script);
+    const tests::Lines expected = tests::told_by_one(one.scene, one.script, one.poison);
     REQUIRE(expected[0] == first);
-    for (const int ranks : {2, 3}) tests::check_alike(tests::told_by_ranks(ranks, one.scene, one.script), expected);
+    for (const int ranks : {2, 3}) tests::check_alike(tests::told_by_ranks(ranks, one.scene, one.script, one.poison), expected);
 }
 
 }  // namespace

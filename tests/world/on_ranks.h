@@ -6,11 +6,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "compute/cpu/reference_runner.h"
 #include "compute/distributed/distributed.h"
+#include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/in_process.h"
 #include "compute/world.h"
+#include "tests/world/poisoned.h"
 
 namespace scree::tests {
 
@@ -18,21 +22,33 @@ using Lines = std::vector<std::string>;
 using TellingScript = std::function<Lines(World&)>;
 using MakeRank = std::function<std::unique_ptr<Runner>(const std::shared_ptr<Exchange>&)>;
 
-inline Lines told_by_one(const Scene& scene, const TellingScript& script) {
-    World world(scene, {}, make_reference_runner(1));
+// Bodies that the step of this number finds beyond all scenes; none if there are none.
+struct Poison {
+    std::vector<std::size_t> bodies;
+    int step = 0;
+    template <class Base, class... Arguments>
+    std::unique_ptr<Runner> in(Arguments&&... arguments) const {
+        return std::make_unique<Poisoned<Base>>(bodies, step, 2e15f, std::forward<Arguments>(arguments)...);
+    }
+};
+
+inline Lines told_by_one(const Scene& scene, const TellingScript& script, const Poison& poison = {}) {
+    World world(scene, {}, poison.in<ReferenceRunner>(1));
     return script(world);
 }
 
 // By rank.
-inline std::vector<Lines> told_by_ranks(
-    int ranks, const Scene& scene, const TellingScript& script,
-    const MakeRank& make = [](const std::shared_ptr<Exchange>& exchange) { return make_distributed_runner(exchange); }) {
+inline std::vector<Lines> told_by_ranks(int ranks, const Scene& scene, const TellingScript& script, const MakeRank& make) {
     std::vector<Lines> told(static_cast<std::size_t>(ranks));
     run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
         World world(scene, {}, make(exchange));
         told[static_cast<std::size_t>(exchange->rank())] = script(world);
     });
     return told;
+}
+inline std::vector<Lines> told_by_ranks(int ranks, const Scene& scene, const TellingScript& script, const Poison& poison = {}) {
+    return told_by_ranks(ranks, scene, script,
+                         [&](const std::shared_ptr<Exchange>& exchange) { return poison.in<DistributedRunner>(exchange, 1); });
 }
 
 inline void check_alike(const std::vector<Lines>& told, const Lines& expected) {

@@ -13,6 +13,7 @@ Scene pairs_on_springs(int pairs);
 struct Ownerless {
     Scene scene;
     TellingScript script;
+    Poison poison;  // that puts bodies into quarantine
 };
 Ownerless joints_in_quarantine();
 Ownerless joints_of_broken_bodies();

@@ -49,7 +49,7 @@ LAW bool counts_turns(uint flags, JointAxis twist) {
 LAW JointConfiguration turned_configuration(JointConfiguration at, uint flags, float twist_before, JointAxis twist,
                                             JointAxis swing_y, JointAxis swing_z) {
     float expected = choose(counts_turns(flags, twist), twist_before, wanted_coordinate(twist, at.twist));
-    at.turned = with_turns(at.twist, turns_between(at.twist, expected));
+    at.turned = flush_tiny(with_turns(at.twist, turns_between(at.twist, expected)));
     bool other_way = at.swing > LEAST_SWING && (flags & JOINT_CONE) == 0u;
     if (none(other_way)) return at;
     float scale = 1.0f - TURN * reciprocal(larger(at.swing, LEAST_SWING));
