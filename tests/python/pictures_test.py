@@ -40,7 +40,8 @@ class Channels(unittest.TestCase):
         hits = self.world.cast_rays(origins, directions, solid=False)
         np.testing.assert_array_equal(self.picture.body, hits.body)
         np.testing.assert_array_equal(self.picture.part, hits.part)
-        np.testing.assert_array_equal(self.picture.normal, hits.normal)
+        # numpy and the picture round a ray's direction by themselves, so normals of round shapes may differ in the last place.
+        np.testing.assert_allclose(self.picture.normal, hits.normal, rtol=0, atol=5e-7)
         along = (hits.point.astype(float) - self.camera.eye) @ self.camera.forward
         seen = hits.body >= 0
         np.testing.assert_allclose(self.picture.depth[seen], along[seen], atol=1e-3)

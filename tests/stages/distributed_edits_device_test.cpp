@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "compute/device/device_runner.h"
-#include "compute/distributed/distributed_runner.h"
+#include "compute/device/make_device_runner.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/on_ranks.h"
 #include "tests/world/ownerless.h"
@@ -14,25 +13,23 @@ using namespace scree;
 
 namespace {
 
-void agree_on_devices(const Scene& scene, const tests::TellingScript& script, const tests::Poison& poison = {}) {
+void agree_on_devices(const Scene& scene, const tests::TellingScript& script) {
     std::vector<std::unique_ptr<Watched>> devices;  // one after the other: drivers are loaded once
     for (int r = 0; r < 2; ++r) devices.push_back(std::make_unique<Watched>());
     const std::vector<tests::Lines> told = tests::told_by_ranks(2, scene, script, [&](const std::shared_ptr<Exchange>& exchange) {
-        return poison.in<DistributedRunner>(exchange, 0, [device = devices[static_cast<std::size_t>(exchange->rank())]->device] {
-            return std::make_unique<DeviceRunner>(device);
-        });
+        return make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]->device);
     });
-    tests::check_alike(told, tests::told_by_one(scene, script, poison));
+    tests::check_alike(told, tests::told_by_one(scene, script));
 }
 
 void agree_on_devices(const tests::Ownerless& one) {
-    agree_on_devices(one.scene, one.script, one.poison);
+    agree_on_devices(one.scene, one.script);
 }
 
 }  // namespace
 
-TEST_CASE("joints of bodies in quarantine are told by ranks on devices as on one CPU", "[vulkan][ranks]") {
-    agree_on_devices(tests::joints_in_quarantine());
+TEST_CASE("joints of bodies that have broken are told by ranks on devices as on one CPU", "[vulkan][ranks]") {
+    agree_on_devices(tests::joints_of_broken_bodies());
 }
 
 TEST_CASE("a vehicle whose chassis has broken is told by ranks on devices as on one CPU", "[vulkan][ranks]") {
