@@ -307,8 +307,9 @@ public:
     std::vector<std::size_t> first_part_rows() const;
 
     // Poses and velocities of many bodies, in one transfer each way; the last of several changes of one body counts. Bodies
-    // wake; a pose set of a body that is not dynamic wakes all. A velocity alone changes as by set_velocity. Throws std::out_of_range for an index, std::invalid_argument
-    // for a body that is not there and for values out of range, naming the body; then changes nothing.
+    // wake; a pose set of a body that is not dynamic wakes all. A velocity alone changes as by set_velocity. Throws
+    // std::out_of_range for an index, std::invalid_argument for a body that is not there and for values out of range, naming the
+    // body; then changes nothing.
     void set_bodies(std::span<const BodyChange> changes);
     // Moves kinematic bodies to poses, each in a number of steps with constant velocities, which push what they meet; then
     // they stand still. A new target, velocity, pose or motion of a body replaces this. Reads their poses. Throws

@@ -1,5 +1,5 @@
-// Begins a substep for each body: warm start, gravity, forces. push.pass: PASS_FIRST, and from bit PASS_FOLLOWING on the number of
-// substeps that follow.
+// Begins a substep for each body: warm start, gravity, forces. push.pass: PASS_FIRST, and from bit PASS_FOLLOWING on the number
+// of substeps that follow.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -35,9 +35,8 @@ Mass lent_mass(uint member, bool after_contacts) {
 }
 
 JointConfiguration configuration_of(uint joint) {
-    JointConfiguration at =
-        joint_configuration(joints.at[joint].anchor_a, joints.at[joint].frame_a, pose_of(joints.at[joint].a),
-                            joints.at[joint].anchor_b, joints.at[joint].frame_b, pose_of(joints.at[joint].b));
+    JointConfiguration at = joint_configuration(joints.at[joint].anchor_a, joints.at[joint].frame_a, pose_of(joints.at[joint].a),
+                                                joints.at[joint].anchor_b, joints.at[joint].frame_b, pose_of(joints.at[joint].b));
     return turned_configuration(at, joints.at[joint].flags, joints.at[joint].twist, joints.at[joint].axes[3],
                                 joints.at[joint].axes[4], joints.at[joint].axes[5]);
 }

@@ -50,8 +50,8 @@ void solve_contact(uint place) {
     Constraint c = narrowed(READ_GROUPED(constraints, i));
     if (BLOCKS && follows_in_block(c)) return;
     Impulse impulse = impulse_at(i);
-    BlockBodies bodies = biased_bodies(READ(masses, c.a), READ(masses, c.b), impulse, load_of_block(i, c, impulse),
-                                       velocities_of(c), PARAMETERS);
+    BlockBodies bodies =
+        biased_bodies(READ(masses, c.a), READ(masses, c.b), impulse, load_of_block(i, c, impulse), velocities_of(c), PARAMETERS);
     if (!BLOCKS) bodies.part = 1.0f;
     VelocityPair v = bodies.moved;
     uint came_from = 0u;
