@@ -15,10 +15,8 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/impact_state.h"
-#include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/scaled_mass.h"
 
 namespace scree::reference {
 
@@ -76,34 +74,11 @@ physics::uint age_of(const State& state, std::size_t body) {
 
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const SlotSum sum = sum_of_slots(state, i);
-    const physics::BodyProperties& properties = state.properties[i];
-    const float scale = physics::mass_scale(state.masses[i], properties);
-    physics::Velocity change = sum.change;
-    if (scale > 1) {
-        physics::ScaledMotion& motion = state.scaled_motions[i];
-        const physics::ScaledChange scaled =
-            physics::with_acceleration(change, state.velocities[i], motion, state.forces[i], scale, state.fixed());
-        change = scaled.change;
-        motion = scaled.motion;
-    }
-    const physics::BodyForces load = physics::scaled_forces(state.forces[i], scale);
-    state.velocities[i] = physics::integrate_velocity(state.velocities[i], change, load, properties, state.fixed());
+    state.velocities[i] =
+        physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
     float& split_state = state.masses[i].split_state;
     if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
     split_state = physics::split_state_after(split_state, sum.weight, sum.normal_impulse);
-}
-
-void scale_mass(State& state, std::size_t i) {
-    physics::BodyMass& mass = state.masses[i];
-    const physics::BodyProperties& properties = state.properties[i];
-    const physics::Parameters& felt = felt_by(state, static_cast<std::uint32_t>(i));
-    const float scale = physics::next_mass_scale(mass, properties, state.velocities[i], felt);
-    if (scale > 1) {
-        physics::ScaledMotion& motion = state.scaled_motions[i];
-        motion = physics::next_scaled_motion(motion, mass, properties, state.velocities[i], felt);
-    }
-    if (scale != physics::mass_scale(mass, properties))
-        mass = physics::mass_with_scale(mass, properties, state.poses[i].orientation, scale);
 }
 
 void move(State& state, std::size_t i) {
@@ -126,7 +101,7 @@ void move(State& state, std::size_t i) {
     state.poses[i] = after.pose;
     state.velocities[i] = after.velocity;
     if (!physics::has_isotropic_inertia(properties))
-        state.masses[i] = physics::mass_with_scale_of(state.masses[i], properties, after.pose.orientation);
+        state.masses[i] = physics::turned_mass(state.masses[i], properties, after.pose.orientation);
 }
 
 }  // namespace
@@ -163,11 +138,8 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::BodyProperties& properties = state.properties[body];
         const physics::Mass mass = physics::mass_in_world(properties, state.poses[body].orientation);
         const bool sets = (action.flags & physics::ACTION_SETS_VELOCITY) != 0 && properties.motion == physics::MOTION_DYNAMIC;
-        const bool begins = sets || physics::was_set(state.sleep_states[body]);
         if (!state.fixed().redo) {
-            const physics::Mass struck =
-                physics::scaled_mass(mass, begins ? 1.0f : physics::mass_scale(state.masses[body], properties));
-            physics::Velocity velocity = physics::apply_impulses(state.velocities[body], action, struck, state.fixed());
+            physics::Velocity velocity = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
             if (physics::changes_velocity(action, properties))
                 velocity = physics::velocity_before_substeps(velocity, action, state.fixed());
             state.velocities[body] = velocity;
@@ -212,12 +184,6 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
         velocity =
             physics::pulled(velocity, state.poses[grip.body], physics::whole_mass(state.masses[grip.body]), grip, state.fixed());
     }
-    if (first == 0) return;
-    const WideStages* wide = wide_stages(threads.lanes());
-    if (!wide || !state.gravities.empty())
-        return threads.for_each(bodies.size(), [&](std::size_t k) { scale_mass(state, bodies[k]); });
-    const WideTables tables = wide_tables(state, bodies);
-    threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->scale(tables, begin, end); });
 }
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {

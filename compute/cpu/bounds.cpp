@@ -10,7 +10,7 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/scaled_mass.h"
+#include "shaders/physics/solve/motion.h"
 
 namespace scree::reference {
 
@@ -73,9 +73,7 @@ void bound(State& state, const Threads& threads, std::size_t i) {
     state.bounds[i] = physics::is_apart(properties)
                           ? physics::no_bounds(pose)
                           : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
-    const float scale = physics::was_set(state.sleep_states[i]) ? 1 : physics::mass_scale(state.masses[i], properties);
-    state.masses[i] =
-        owner == i ? physics::mass_with_scale(state.masses[i], properties, pose.orientation, scale) : physics::BodyMass{};
+    state.masses[i] = owner == i ? physics::turned_mass(state.masses[i], properties, pose.orientation) : physics::BodyMass{};
     list_in_grid(state, threads, i, physics::will_sweep(properties, velocity, state.fixed()));
 }
 

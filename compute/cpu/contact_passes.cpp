@@ -62,11 +62,10 @@ bool is_ordinary(const State& state, const physics::Contact& contact) {
     return (physics::surface_of(ta) | physics::surface_of(tb) | physics::tyre_of(ta) | physics::tyre_of(tb)) == 0;
 }
 
-// The constraint of a contact, whose unrest follows from it.
 void prepare_constraint(State& state, std::size_t i) {
     const physics::Parameters& p = state.fixed();
     physics::Constraint& c = state.constraints[i];
-    physics::Contact& contact = state.contacts[i];
+    const physics::Contact& contact = state.contacts[i];
     const std::uint32_t a = c.a, b = c.b;
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
     c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
@@ -77,8 +76,6 @@ void prepare_constraint(State& state, std::size_t i) {
     const bool tyre_is_a = physics::tyre_of(ta) != 0;
     if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
         c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], contact.center_offset, now);
-    contact.unrest = physics::unrest_of(contact, c, ta, tb, now, felt_by(state, a));
-    c = physics::with_unrest(c, contact.unrest);
 }
 
 // ---- blocks of contacts (contact_block.h)

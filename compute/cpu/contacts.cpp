@@ -65,7 +65,6 @@ void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
         if (in_lanes && is_solved(state, i)) return;
         const physics::PreparedContact prepared = warm_started_contact(state, i);
         state.contacts[i].load = prepared.contact.load;
-        state.contacts[i].unrest = prepared.contact.unrest;
         state.keep_impulse(i, prepared.impulse);
     });
 }

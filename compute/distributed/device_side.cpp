@@ -147,7 +147,7 @@ void DeviceSide::fetch_contacts_of_sleepers() {
 
 void DeviceSide::fetch_for_new_rows() {
     if (!device_) return;
-    fetch({Table::properties, Table::strains, Table::scaled_motions, Table::slot_ends, Table::first_contacts});
+    fetch({Table::properties, Table::strains, Table::slot_ends, Table::first_contacts});
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     fetch(contacts_before_of(count));
 }
@@ -159,7 +159,7 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
         std::sort(rows.begin(), rows.end());
         rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         TableRanges records;
-        for (const Table table : {Table::properties, Table::ids, Table::strains, Table::scaled_motions})
+        for (const Table table : {Table::properties, Table::ids, Table::strains})
             append_rows(records, table, rows);
         return store(records);
     }
@@ -167,7 +167,7 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
     adapt();
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     store({Table::properties, Table::ids, Table::poses, Table::velocities, Table::forces, Table::sleep_states, Table::masses,
-           Table::scaled_motions, Table::strains, Table::slot_ends, Table::first_contacts});
+           Table::strains, Table::slot_ends, Table::first_contacts});
     store(contacts_before_of(count));
     device_->resume_step();
 }

@@ -134,7 +134,7 @@ void DistributedRunner::share_out() {
 void DistributedRunner::download_share() {
     if (!device_ || std::exchange(has_share_on_host_, true)) return;
     using enum Table;
-    device_.fetch({properties, poses, velocities, sleep_states, strains, masses, scaled_motions, slot_ends});
+    device_.fetch({properties, poses, velocities, sleep_states, strains, masses, slot_ends});
     device_.fetch_contacts();
 }
 
@@ -218,10 +218,10 @@ void DistributedRunner::move_bodies_between_ranks() {
 void DistributedRunner::place_bodies() {
     using enum Table;
     const bool any_stopped = device_ && ownership_.any_stopped(*state_);
-    if (any_stopped) device_.fetch({poses, velocities, sleep_states, masses, scaled_motions, strains});
+    if (any_stopped) device_.fetch({poses, velocities, sleep_states, masses, strains});
     ownership_.place(*state_, *exchange_);
     placed_bodies_ = state_->fixed().first_part;
-    if (any_stopped) device_.store({poses, velocities, sleep_states, masses, scaled_motions, strains});
+    if (any_stopped) device_.store({poses, velocities, sleep_states, masses, strains});
 }
 
 std::size_t DistributedRunner::run_on_device(std::size_t first) {

@@ -101,7 +101,6 @@ void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges) 
             case poses:
             case velocities:
             case masses:
-            case scaled_motions:
             case sleep_states:
             case strains:
                 gather_rows(state, exchange, range);

@@ -9,7 +9,7 @@
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/scaled_mass.h"
+#include "shaders/physics/solve/motion.h"
 
 namespace scree {
 
@@ -23,7 +23,7 @@ struct GhostAtStart {
     physics::Pose pose;
     physics::Velocity velocity;
     physics::BodyForces forces;
-    float split_state = 0, inverse_mass = 0;  // scaled (mass_scaling.h)
+    float split_state = 0;
 };
 struct FreshGhost {
     std::uint32_t id = 0;
@@ -31,7 +31,7 @@ struct FreshGhost {
 };
 struct GhostVelocity {
     physics::Velocity velocity;
-    float split_state = 0, inverse_mass = 0;
+    float split_state = 0;
 };
 struct GhostMotion {
     physics::Velocity velocity;
@@ -186,7 +186,7 @@ Bytes Halo::start_of(const State& state, const std::vector<std::uint32_t>& rows,
     for (const std::uint32_t row : rows) {
         const std::uint32_t id = state.id_of(row);
         put(ghosts, GhostAtStart{id, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
-                                 state.masses[row].split_state, state.masses[row].inverse_mass});
+                                 state.masses[row].split_state});
         if (!state.is_share()) continue;
         ids.push_back(id);
         if (!std::binary_search(known.begin(), known.end(), id)) put(fresh, FreshGhost{id, state.properties[row]});
@@ -230,7 +230,6 @@ void Halo::take_ghosts(State& state, Share& share, const std::vector<Bytes>& sen
             state.velocities[row] = ghost.velocity;
             state.forces[row] = ghost.forces;
             state.masses[row].split_state = ghost.split_state;
-            state.masses[row].inverse_mass = ghost.inverse_mass;
         }
 }
 
@@ -316,15 +315,11 @@ void Halo::start_velocities(State& state, Exchange& exchange) {
     start<GhostVelocity>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
-            return GhostVelocity{s.velocities[row], s.masses[row].split_state, s.masses[row].inverse_mass};
+            return GhostVelocity{s.velocities[row], s.masses[row].split_state};
         },
         [](State& s, std::uint32_t row, const GhostVelocity& ghost) {
             s.velocities[row] = ghost.velocity;
-            physics::BodyMass& mass = s.masses[row];
-            const bool rescaled = mass.inverse_mass != ghost.inverse_mass;
-            mass.split_state = ghost.split_state;
-            mass.inverse_mass = ghost.inverse_mass;
-            if (rescaled) mass = physics::mass_with_scale_of(mass, s.properties[row], s.poses[row].orientation);
+            s.masses[row].split_state = ghost.split_state;
         });
 }
 
@@ -340,7 +335,7 @@ void Halo::start_motion(State& state, Exchange& exchange) {
             s.forces[row].impacts = ghost.impacts;
             s.impact_debts[row] = ghost.impact_debt;
             if (!physics::has_isotropic_inertia(s.properties[row]))
-                s.masses[row] = physics::mass_with_scale_of(s.masses[row], s.properties[row], ghost.orientation);
+                s.masses[row] = physics::turned_mass(s.masses[row], s.properties[row], ghost.orientation);
         });
 }
 

@@ -27,13 +27,12 @@ struct MovedBody {
     physics::BodyProperties properties;
     physics::Pose pose;
     physics::Velocity velocity;
-    physics::ScaledMotion scaled;
-    float split_state = 0, inverse_mass = 0, strain = 0;
+    float split_state = 0, strain = 0;
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
     return {state.id_of(row),      state.sleep_states[row],   state.properties[row],         state.poses[row],
-            state.velocities[row], state.scaled_motions[row], state.masses[row].split_state, state.masses[row].inverse_mass,
+            state.velocities[row], state.masses[row].split_state,
             state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {
@@ -42,9 +41,7 @@ void take_body(State& state, const MovedBody& body) {
     state.sleep_states[row] = body.rest;
     state.poses[row] = body.pose;
     state.velocities[row] = body.velocity;
-    state.scaled_motions[row] = body.scaled;
     state.masses[row].split_state = body.split_state;
-    state.masses[row].inverse_mass = body.inverse_mass;
     state.strains[row] = body.strain;
 }
 

@@ -19,8 +19,7 @@ struct OwnedBody {
     physics::BodyProperties properties;
     physics::Pose pose;
     physics::Velocity velocity;
-    physics::ScaledMotion scaled;
-    float split_state = 0, inverse_mass = 0, strain = 0;
+    float split_state = 0, strain = 0;
 };
 
 std::uint32_t with_room(std::size_t rows) {
@@ -182,8 +181,8 @@ void Share::end(State& state, Exchange& exchange) {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row))
             put(said, OwnedBody{state.id_of(row), state.sleep_states[row], state.properties[row], state.poses[row],
-                                state.velocities[row], state.scaled_motions[row], state.masses[row].split_state,
-                                state.masses[row].inverse_mass, state.strains[row]});
+                                state.velocities[row], state.masses[row].split_state,
+                                state.strains[row]});
     const std::uint32_t first_part = *state.first_part_id;
     std::vector<std::uint32_t> from(first_part, physics::NONE);
     for (std::uint32_t id = 0; id < state.body_count; ++id) from[id] = state.row_of(id);
@@ -203,9 +202,7 @@ void Share::end(State& state, Exchange& exchange) {
             state.sleep_states[body.id] = body.rest;
             state.poses[body.id] = body.pose;
             state.velocities[body.id] = body.velocity;
-            state.scaled_motions[body.id] = body.scaled;
             state.masses[body.id].split_state = body.split_state;
-            state.masses[body.id].inverse_mass = body.inverse_mass;
             state.strains[body.id] = body.strain;
         }
     }

@@ -177,7 +177,6 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     take(sleep_states);
     take(strains);
     take(masses);
-    take(scaled_motions);
     take(filters);
     for (physics::BodyProperties& row : properties) follow(row.owner);
     for (physics::Joint& joint : joints)

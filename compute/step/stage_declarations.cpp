@@ -189,8 +189,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers}, {births}, {gravities}, {ids}, {scaled_motions}, {actions, A::actions}},
-        {{velocities, A::movers}, {masses, A::movers, 1}, {scaled_motions}},
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers}, {births}, {gravities}, {ids}, {actions, A::actions}},
+        {{velocities, A::movers}, {masses, A::movers, 1}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS | physics::FEATURE_GRAVITIES});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {masses, A::movers}, {velocities, A::movers}, {forces},

@@ -222,7 +222,7 @@ static bool is_of_devices(Table table) {
 void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
-    for (const Table table : {parameters, counts, properties, poses, velocities, scaled_motions, sleep_states, strains, actions,
+    for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions,
                               hulls, joints, joint_blocks, block_bodies, vehicles, ids, births})
         make(table);
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);

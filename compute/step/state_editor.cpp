@@ -17,7 +17,6 @@ namespace {
 
 physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.normal *= factor;
-    impulse.solved_normal *= factor;
     impulse.impact *= factor;
     impulse.rebound_energy *= factor;
     impulse.impact_energy *= factor;
@@ -140,7 +139,6 @@ TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
     insert(state_.sleep_states, 0u);
     insert(state_.strains, 0.0f);
     insert(state_.masses, physics::BodyMass{});
-    insert(state_.scaled_motions, physics::ScaledMotion{});
     // Spare rows have no contacts: an empty range.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
     TableRanges changed;
@@ -287,8 +285,6 @@ TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     return changed;
 }
 
-// The record of a mass tells the scale relative to the properties (scaled_mass.h): of other properties, it would tell another
-// one.
 void StateEditor::begin_mass(std::uint32_t row, TableRanges& changed) {
     state_.make(Table::masses);
     state_.masses[row] = {};
@@ -302,14 +298,12 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     SceneCompiler compiler(state_);
     const ShapeLengths before = shape_lengths(state_);
     const bool quarantined = physics::is_quarantined(whole.motion) && body.motion == Motion::dynamic;
-    const float inverse_mass = whole.inverse_mass;
     SceneCompiler::set_mass(whole, body);
     if (quarantined) whole.motion = physics::MOTION_QUARANTINED;
     compiler.set_material(whole, body);
     const auto* compound = std::get_if<Compound>(&body.shape);
     const Material own = material_of(body);
     TableRanges changed{{Table::properties, row, 1}};
-    if (!quarantined && whole.inverse_mass != inverse_mass) begin_mass(row, changed);
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
         one.motion = static_cast<physics::uint>(body.motion) | physics::MOTION_OF_PART;

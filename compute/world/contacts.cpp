@@ -56,7 +56,7 @@ std::vector<ContactState> World::contacts() const {
         made.friction = impulse.friction * state.fixed().inverse_h;
         made.count = contact.count;
         for (physics::uint k = 0; k < contact.count; ++k) {
-            const float force = impulse.solved_normal[static_cast<int>(k)] * state.fixed().inverse_h;
+            const float force = impulse.normal[static_cast<int>(k)] * state.fixed().inverse_h;
             made.points[k] = {point_now(state, contact, k), impulse.separation[static_cast<int>(k)], std::max(0.0f, force)};
         }
         if (made.a < made.b) continue;

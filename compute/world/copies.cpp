@@ -129,7 +129,7 @@ void World::Impl::reset(std::span<const std::size_t> which) {
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy;
     TableRanges changed = rows_of_copies(
-        which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses, Table::scaled_motions});
+        which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
     if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
     state.make(Table::masses);
     const auto put_back = [&](std::size_t row, std::size_t place) {
@@ -138,7 +138,6 @@ void World::Impl::reset(std::span<const std::size_t> which) {
         state.strains[row] = start.strains[place];
         state.sleep_states[row] = 0;
         state.masses[row] = {};
-        state.scaled_motions[row] = {};
     };
     for (const TableRange& run : rows_of_copies(which, {Table::poses}))
         for (std::size_t row = run.first; row < run.first + run.count; ++row) {

@@ -383,7 +383,7 @@ std::vector<BodyContact> World::contacts_of(std::size_t body) const {
         const physics::Contact& contact = state.contacts[i];
         const std::size_t a = state.id_of(state.body_of(contact.a)), b = state.id_of(state.body_of(contact.b));
         if (a != body && b != body) continue;
-        const physics::vec4 pushes = state.impulses[i].solved_normal;
+        const physics::vec4 pushes = state.impulses[i].normal;
         const float force = (pushes.x + pushes.y + pushes.z + pushes.w) * state.fixed().inverse_h;
         found.push_back({a == body ? b : a, static_cast<int>(contact.count), force});
     }

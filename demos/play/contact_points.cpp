@@ -34,7 +34,7 @@ std::vector<ContactPoint> contact_points_of(const World& world, std::size_t body
             point.position = 0.5f * (on_a.position + turned_on(contact.orientation_a, on_a.orientation, arm) + on_b.position +
                                      turned_on(contact.orientation_b, on_b.orientation, arm - contact.center_offset));
             point.normal = a == row ? -contact.normal : contact.normal;
-            point.force = state.impulses[i].solved_normal[static_cast<int>(k)] * state.fixed().inverse_h;
+            point.force = state.impulses[i].normal[static_cast<int>(k)] * state.fixed().inverse_h;
             points.push_back(point);
         }
     }

@@ -6,7 +6,6 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/driven.h"
-#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
@@ -17,10 +16,8 @@ void main() {
     BodyProperties body = READ(properties, action.body);
     Mass mass = mass_in_world(body, READ(poses, action.body).orientation);
     bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u && body.motion == MOTION_DYNAMIC;
-    bool begins = sets || was_set(WORD(sleep_states, action.body));
     if (PARAMETERS.redo == 0u) {
-        Mass struck = scaled_mass(mass, begins ? 1.0f : mass_scale(READ(masses, action.body), body));
-        Velocity velocity = apply_impulses(velocities.at[action.body], action, struck, PARAMETERS);
+        Velocity velocity = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
         if (changes_velocity(action, body)) velocity = velocity_before_substeps(velocity, action, PARAMETERS);
         velocities.at[action.body] = velocity;
     }

@@ -6,7 +6,6 @@
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/scaled_mass.h"
 #include "shaders/stages/lib/copies.glsl"
 
 // Skips the atomic where the bits are set already: most bodies add nothing, and a contended atomic is slow.
@@ -36,8 +35,7 @@ void main() {
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        float scale = was_set(READ_WORD(sleep_states, i)) ? 1.0f : mass_scale(masses.at[i], body);
-        masses.at[i] = mass_with_scale(masses.at[i], body, pose.orientation, scale);
+        masses.at[i] = turned_mass(masses.at[i], body, pose.orientation);
     } else {
         masses.at[i] = BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }

@@ -18,7 +18,7 @@ Surface surface_on(BodyProperties row) {
     return READ_QUADS(surfaces, surface_of(row) - 1u);
 }
 
-// The constraint of a contact that some body moves, and its unrest.
+// The constraint of a contact that some body moves.
 Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Parameters felt) {
     BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
@@ -27,9 +27,7 @@ Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair 
         constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
                                    READ(poses, of_b).orientation, PARAMETERS);
     if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, contact.center_offset, now);
-    float unrest = unrest_of(contact, constraint, ta, tb, now, felt);
-    contacts.at[i].unrest = unrest;
-    return with_unrest(constraint, unrest);
+    return constraint;
 }
 
 // The number of the next contact of a block (contact_block.h).

@@ -40,5 +40,4 @@ void main() {
     }
     keep_impulse(i, prepared.impulse);
     contacts.at[i].load = prepared.contact.load;
-    contacts.at[i].unrest = prepared.contact.unrest;
 }

@@ -63,7 +63,6 @@ Meeting random_meeting(tests::Noise& noise) {
         made.c.centre = lever_arm(made.c, 0) + way * (0.606f + 0.01f * noise()) - offset;
         made.impulse.separation.x = round_gap(made.c, offset);
     }
-    if (one_in(4)) made.c.flags |= CONSTRAINT_RESTLESS;
     if (one_in(4)) made.c.flags |= CONSTRAINT_ROLLS_ONLY;
     if (one_in(4)) made.c.static_friction = 1;
     if (one_in(4)) made.c.tyre_slip = 0.1f;

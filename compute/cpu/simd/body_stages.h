@@ -1,4 +1,4 @@
-// Stages over bodies, one per lane: bounds, the two stages of a substep, mass scales, and the end of a step. For
+// Stages over bodies, one per lane: bounds, the two stages of a substep, and the end of a step. For
 // compute/cpu/simd/simd_stages.cpp.
 #pragma once
 
@@ -24,7 +24,7 @@ void bound(const WideTables& tables, std::size_t first, std::size_t last) {
         const Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         const BodyForces load = gather<BodyForces>(tables.forces, bodies);
         scatter(tables.bounds, live, bounds_of(properties, 0.0f, pose, velocity, load, p));
-        scatter(tables.masses, live, mass_with_scale_of(gather<BodyMass>(tables.masses, bodies), properties, pose.orientation));
+        scatter(tables.masses, live, turned_mass(gather<BodyMass>(tables.masses, bodies), properties, pose.orientation));
         set_marks(tables, first, last, choose(will_sweep(properties, velocity, p), 1u, 0u));
     }
 }
@@ -97,45 +97,17 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         const Indices bodies(listed(tables.items, first, last));
         const BodyGroup group(tables, first, bodies, tables.first);
         const VelocityDelta sum = sums_of_slots(tables, bodies);
-        Velocity change, velocity = gather<Velocity>(tables.velocities, bodies);
+        Velocity change;
         change.linear = sum.linear;
         change.angular = sum.angular;
         const Indices live = bodies.only(living(first, last));
-        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
-        const Float scale = mass_scale(mass, group.properties);
-        const Bool is_scaled = scale > 1.0f;
-        if (!none(is_scaled)) {
-            const ScaledChange scaled =
-                with_acceleration(change, velocity, gather<ScaledMotion>(tables.scaled_motions, bodies), group.load, scale, p);
-            change = scaled.change;
-            scatter(tables.scaled_motions, live.only(is_scaled), scaled.motion);
-        }
-        velocity = integrate_velocity(velocity, change, scaled_forces(group.load, scale), group.properties, p);
-        Float state = mass.split_state;
+        const Velocity velocity =
+            integrate_velocity(gather<Velocity>(tables.velocities, bodies), change, group.load, group.properties, p);
+        Float state = gather<BodyMass>(tables.masses, bodies).split_state;
         if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
         state = split_state_after(state, sum.weight, sum.normal_impulse);
         scatter(tables.velocities, live, velocity);
         scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, split_state), state);
-    }
-}
-
-void scale(const WideTables& tables, std::size_t first, std::size_t last) {
-    Parameters p;
-    broadcast(tables.parameters, p);
-    for (; first < last; first += lanes) {
-        const Indices bodies(listed(tables.items, first, last)), live = bodies.only(living(first, last));
-        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
-        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
-        const Velocity velocity = gather<Velocity>(tables.velocities, bodies);
-        const Float scale = next_mass_scale(mass, properties, velocity, p);
-        const Bool is_scaled = scale > 1.0f, changes = scale != mass_scale(mass, properties);
-        if (!none(is_scaled)) {
-            const ScaledMotion motion = gather<ScaledMotion>(tables.scaled_motions, bodies);
-            scatter(tables.scaled_motions, live.only(is_scaled), next_scaled_motion(motion, mass, properties, velocity, p));
-        }
-        if (none(changes)) continue;
-        const Pose pose = gather<Pose>(tables.poses, bodies);
-        scatter(tables.masses, live.only(changes), mass_with_scale(mass, properties, pose.orientation, scale));
     }
 }
 
@@ -168,7 +140,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         const Bool turns = !has_isotropic_inertia(group.properties);
         if (none(turns)) continue;
         const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
-        scatter(tables.masses, live.only(turns), mass_with_scale_of(mass, group.properties, after.pose.orientation));
+        scatter(tables.masses, live.only(turns), turned_mass(mass, group.properties, after.pose.orientation));
     }
 }
 

@@ -41,7 +41,7 @@ SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std
     fetch(next.c.flags, next.c.flags);
     if (!plain) fetch(next.c.tyre_slip, next.c.tyre_slip);
     fetch(next.c.slide_limit, next.c.slide_limit);
-    fetch(next.impulse.normal, next.impulse.solved_normal);
+    fetch(next.impulse.normal, next.impulse.normal);
     fetch_points(next.impulse.separation);
     if (!plain) fetch(next.impulse.impact, next.impulse.flight_energy);
     fetch(next.impulse.friction, next.impulse.turn);
@@ -133,7 +133,6 @@ struct Group {
     SCREE_INLINE void keep(const Impulse& after) const {
         keep_solved(after);
         keep_motion(record, after);
-        record.impulse.solved_normal = after.solved_normal;
         record.impulse.normal_sum = after.normal_sum;
     }
 };

@@ -11,7 +11,7 @@ namespace {
 // What a group of contacts has from the last step, and from the manifolds of this one.
 struct Inherited {
     Impulse impulse;
-    Float load, unrest;
+    Float load;
     Uint slot_a, slot_b;
 };
 constexpr std::size_t words_of_impulse = sizeof(ContactImpulse) / sizeof(Words);
@@ -32,7 +32,7 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     for (int lane = 0; lane < lanes; ++lane)
         places[lane] = known.v[lane] != 0 ? tables.impulses_before + words_of_impulse * pair.previous.v[lane] : zero_impulse;
     const Impulse was = whole_impulse(gather_at<ContactImpulse>(places), no_impact());
-    Inherited found{no_impulse(contact.center_offset), contact.load, contact.unrest, slot_a, slot_b};
+    Inherited found{no_impulse(contact.center_offset), contact.load, slot_a, slot_b};
     found.impulse.separation = separations_of(contact);
     if (!none(carried)) {
         const Impulse now = carried_impulse(contact, was, gather<Manifold>(tables.manifolds, pairs));
@@ -46,7 +46,6 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
         now.separation = found.impulse.separation;
         found.impulse = choose_record(matched, now, found.impulse);
         found.load = choose(matched, load_since(before, was, ta, found.slot_a, tb, found.slot_b), found.load);
-        found.unrest = choose(matched, before.unrest, found.unrest);
     }
     found.impulse.normal_sum = normal_impulse(found.impulse);
     return found;
@@ -83,17 +82,13 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
         const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
         const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
         const Inherited from = inherited(tables, contacts, ta, tb, contact);
-        contact.unrest = from.unrest;
         Constraint c =
             constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
         const Indices a(c.a), b(c.b);
         const VelocityPair now{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)};
-        const Float unrest = unrest_of(contact, c, ta, tb, now, p);
-        c = with_unrest(c, unrest);
         const Bool live = living(first, last);
         const Indices written = contacts.only(live);
         if (tables.constraints != nullptr) scatter(tables.constraints, written, c);
-        scatter_member<Contact>(tables.contacts, written, offsetof(Contact, unrest), unrest);
         scatter_member<Contact>(tables.contacts, written, offsetof(Contact, load), from.load);
         Kept& prepared = kept(tables, first);
         copy_record(prepared.c, c);
@@ -125,15 +120,9 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
             const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
             const Constraint was = prepared.c;
-            const VelocityPair now{gather<Velocity>(tables.velocities, Indices(was.a)),
-                                   gather<Velocity>(tables.velocities, Indices(was.b))};
             Constraint c = constraint_between(contact, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
-            const Float unrest = unrest_of(contact, c, ta, tb, now, p);
-            c = with_unrest(c, unrest);
             prepared.c = none(!waits) ? c : choose_record(waits, c, was);
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
-            scatter_member<Contact>(tables.contacts, contacts.only(living(first, last) && waits), offsetof(Contact, unrest),
-                                    unrest);
         }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);

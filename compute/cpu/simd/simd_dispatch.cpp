@@ -43,7 +43,6 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.poses = words(state.poses);
     tables.velocities = words(state.velocities);
     tables.masses = words(state.masses);
-    tables.scaled_motions = words(state.scaled_motions);
     tables.forces = words(state.forces);
     tables.impulses = words(state.impulses);
     tables.impacts = state.bounces() ? words(state.impacts) : nullptr;

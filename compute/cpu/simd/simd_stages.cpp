@@ -21,10 +21,8 @@
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_impulse.h"
 #include "shaders/physics/solve/contact_pass.h"
-#include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"
-#include "shaders/physics/solve/scaled_mass.h"
 #undef float
 #undef bool
 
@@ -43,7 +41,6 @@ const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::collide_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,
                                               SCREE_NAMED(SCREE_LANES)::begin,
-                                              SCREE_NAMED(SCREE_LANES)::scale,
                                               SCREE_NAMED(SCREE_LANES)::solve,
                                               SCREE_NAMED(SCREE_LANES)::move,
                                               SCREE_NAMED(SCREE_LANES)::relax,

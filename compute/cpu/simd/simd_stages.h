@@ -25,7 +25,6 @@ struct WideTables {
     std::uint32_t* poses;
     std::uint32_t* velocities;
     std::uint32_t* masses;
-    std::uint32_t* scaled_motions;
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* impacts;  // null: no contact has restitution
@@ -70,12 +69,10 @@ struct WideStages {
     void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs of boxes that are not apart: their manifolds (collide), those of parts relative to the part.
     void (*collide_boxes)(const WideTables&, std::size_t first, std::size_t last);
-    // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts). With
+    // Constraints of contacts that have none yet (point count 0) and the first warm start (prepare_contacts). With
     // `warm_starts` of all contacts, and what they take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
-    // Mass scales, after begin of the first substep (mass_scaling.h).
-    void (*scale)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);
     void (*relax)(const WideTables&, std::size_t first, std::size_t last);

@@ -114,12 +114,6 @@ struct Velocity {
     float low_z;   // of the position, m
 };
 
-// Of a body with scaled mass: its velocity through a low-pass filter (mass_scaling.h).
-struct ScaledMotion {
-    vec3 linear;  // of the centre of mass, m/s
-    float waits;  // steps until its acceleration counts
-};
-
 // Inverse mass and world inverse inertia at the present orientation.
 struct BodyMass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
@@ -244,7 +238,7 @@ struct Contact {
     uint count;          // points, 1 to 4
     uint features;       // as in Manifold
     vec3 normal;         // unit, world, from A to B, when the contact was made
-    float unrest;        // time for which its points have not been calm, s (unrest.h)
+    float pad0;
     vec3 center_offset;  // centre of B minus centre of A when made, m
     float load;          // normal impulse in a substep when both bodies were last awake, N s
     vec4 points[4];      // as in Manifold, when made
@@ -253,8 +247,7 @@ struct Contact {
 };
 // Impulses of a contact and what they depend on, but for impacts.
 struct ContactImpulse {
-    vec4 normal;           // per point, N s, >= 0; the next substep starts with these (contact_momentum.h)
-    vec4 solved_normal;    // per point, of the last relax pass, N s
+    vec4 normal;           // per point, N s, >= 0; the next substep starts with these
     vec4 separation;       // per point, m
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
@@ -265,7 +258,7 @@ struct ContactImpulse {
     vec3 stretch;          // way of B over A since the patch sticks (friction.h), in the tangent plane, world, m
     float turn;            // turn of B on A since, about the normal, rad
 };
-CONSTANT uint CONTACT_IMPULSE_QUADS = 7u;  // of 16 bytes
+CONSTANT uint CONTACT_IMPULSE_QUADS = 6u;  // of 16 bytes
 // The impact with restitution of a contact (restitution.h); all 0: none.
 struct ContactImpact {
     vec4 impact;           // per point: impulse in the last pass, N s
@@ -278,7 +271,7 @@ struct ContactImpact {
 };
 // Both, as the solver computes with them (contact_impulse.h); tables have them apart, because most scenes have no restitution.
 struct Impulse {
-    vec4 normal, solved_normal, separation;
+    vec4 normal, separation;
     vec4 impact;
     float rebound_energy, impact_energy, impact_weight, flight_energy;
     vec3 friction;
@@ -297,9 +290,8 @@ CONSTANT uint CONSTRAINT_POINTS = 7u;  // mask of the number of points
 CONSTANT uint CONSTRAINT_ON_B = 8u;
 CONSTANT uint CONSTRAINT_ROUND = 16u;       // neither: the single point of two round bodies follows both
 CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not resist spinning
-CONSTANT uint CONSTRAINT_RESTLESS = 64u;    // the leak of its impulses is not smaller (unrest.h)
-CONSTANT uint CONSTRAINT_FOLLOWS = 128u;    // its block has a contact before it (contact_block.h)
-CONSTANT uint CONSTRAINT_LEADS = 256u;      // its block has a contact behind it
+CONSTANT uint CONSTRAINT_FOLLOWS = 64u;     // its block has a contact before it (contact_block.h)
+CONSTANT uint CONSTRAINT_LEADS = 128u;      // its block has a contact behind it
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts
@@ -555,7 +547,7 @@ struct Parameters {  // uniform over a step
     uint contact_pairs_offset;
     uint contact_slots_offset;
     uint most_groups;  // workgroups of a dispatch along one axis
-    uint scaled_motions_offset;
+    uint pad0;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

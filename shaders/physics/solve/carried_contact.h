@@ -10,7 +10,6 @@ LAWS_BEGIN
 LAW Impulse no_impulse(vec3 d) {
     Impulse impulse;
     impulse.normal = vec4(0.0f);
-    impulse.solved_normal = vec4(0.0f);
     impulse.separation = vec4(0.0f);
     impulse.impact = vec4(0.0f);
     impulse.rebound_energy = 0.0f;
@@ -40,7 +39,6 @@ LAW bool is_carried_forward(uint pair_type) {
 LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
-    impulse.solved_normal = was.solved_normal;
     impulse.impact = was.impact;
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;

@@ -81,7 +81,6 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches, bool point_
     for (int k = 0; k < 4; ++k) {
         bool matched = matches[k] != NONE;
         impulse.normal[k] = choose(matched, component(was.normal, matches[k]), 0.0f);
-        impulse.solved_normal[k] = choose(matched, component(was.solved_normal, matches[k]), 0.0f);
         impulse.impact[k] = choose(matched, component(was.impact, matches[k]), 0.0f);
     }
     impulse.rebound_energy = was.rebound_energy;
@@ -104,7 +103,7 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.count = count;
     contact.features = manifold.features;
     contact.normal = manifold.normal;
-    contact.unrest = 0.0f;
+    contact.pad0 = 0.0f;
     contact.center_offset = b.position - a.position;
     contact.load = 0.0f;
     for (int k = 0; k < 4; ++k) contact.points[k] = manifold.points[k];

@@ -4,7 +4,6 @@
 
 #include "shaders/physics/collide/body_scale.h"
 #include "shaders/physics/solve/constraint.h"
-#include "shaders/physics/solve/unrest.h"
 
 LAWS_BEGIN
 
@@ -140,17 +139,6 @@ LAW Constraint constraint_between(Contact contact, BodyProperties ta, uint body_
     Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
     c.a = body_a;
     c.b = body_b;
-    return c;
-}
-
-// The contact's unrest in this step, s. `now`: velocities as the step begins.
-LAW float unrest_of(Contact contact, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now,
-                    Parameters parameters) {
-    float calm = calm_speed(smaller(min_half_width(ta), min_half_width(tb)), parameters);
-    return unrest_after(contact.unrest, c, contact.center_offset, now, calm, parameters);
-}
-LAW Constraint with_unrest(Constraint c, float unrest) {
-    c.flags = choose(is_restless_contact(unrest), c.flags | CONSTRAINT_RESTLESS, c.flags);
     return c;
 }
 

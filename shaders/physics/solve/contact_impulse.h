@@ -18,7 +18,6 @@ LAW ContactImpact no_impact() {
 LAW Impulse whole_impulse(ContactImpulse kept, ContactImpact impact) {
     Impulse impulse;
     impulse.normal = kept.normal;
-    impulse.solved_normal = kept.solved_normal;
     impulse.separation = kept.separation;
     impulse.impact = impact.impact;
     impulse.rebound_energy = impact.rebound_energy;
@@ -38,7 +37,6 @@ LAW Impulse whole_impulse(ContactImpulse kept, ContactImpact impact) {
 LAW ContactImpulse contact_impulse_of(Impulse impulse) {
     ContactImpulse kept;
     kept.normal = impulse.normal;
-    kept.solved_normal = impulse.solved_normal;
     kept.separation = impulse.separation;
     kept.friction = impulse.friction;
     kept.twist = impulse.twist;

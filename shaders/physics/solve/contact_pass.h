@@ -22,7 +22,7 @@ struct PassOutcome {
     VelocityPair share;     // change of the whole bodies' velocities, with the next substep's warm start
     float weight;           // in the mass splitting that follows; after the biased pass, that of an impact
     float passed_on;        // normal impulse, N s; after the biased pass the impact_debt, J
-    float borne;            // normal impulse of the relax pass, without momentum, N s
+    float borne;            // normal impulse of the relax pass, impacts included, N s
 };
 
 #ifndef SCREE_LANES  // lanes take single contacts, and read less
@@ -66,14 +66,14 @@ LAW PassOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, Block
 // The relax pass. `last`: in the last substep of a step, whose impulses the next step takes up.
 LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around, bool last,
                            Parameters parameters) {
-    SolveResult after = relax_contact(c, impulse, bodies.moved, v, bodies.a, bodies.b, around, bodies.part, last, parameters);
+    SolveResult after = relax_contact(c, impulse, bodies.moved, v, bodies.a, bodies.b, around, bodies.part, parameters);
     PassOutcome outcome;
-    outcome.borne = solved_impulse(after.impulse);
+    outcome.borne = normal_impulse(after.impulse);
     outcome.impulse = clear_impacts(after.impulse, point_count(c));
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = to_body_deltas(v, after.pair_velocity, bodies.a, bodies.b);
-    outcome.weight = counts_next(c, impulse, outcome.impulse, after.pair_velocity, bodies.a, bodies.b, parameters);
+    outcome.weight = is_active(c, outcome.impulse, after.pair_velocity, parameters);
     outcome.passed_on = outcome.impulse.normal_sum;
     if (none(last)) outcome.share = warm_start(c, outcome.impulse, outcome.share, bodies.a, bodies.b);
     return outcome;

@@ -50,7 +50,6 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     vec4 separation = prepared.impulse.separation;
     prepared.impulse = warm_start_from(prepared.contact, was, matches, keeps_twist(before, a, b));
     prepared.impulse.separation = separation;
-    prepared.contact.unrest = before.unrest;
     return prepared;
 }
 

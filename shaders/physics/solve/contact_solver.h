@@ -17,24 +17,11 @@
 // rounding. A contact ends within the step once its bodies have slid along the surface by more than the half width of
 // the body slid over: its points would hang in the air, so it pushes no more until the next narrowphase.
 //
-// Impulses have momentum from substep to substep (contact_momentum.h). The contacts of one pair of bodies are one block
+// The contacts of one pair of bodies are one block
 // (contact_block.h).
-//
-// Measured alternatives (without momentum; 8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of
-// 520):
-//   as it is                                            0.117 m  0.048 m  0.021 m
-//   contact frequency 0.125/h; 0.16/h in place of 0.14  0.147; 0.090   with 0.16 a pyramid of 210 is not quiet within 8 s
-//   contact frequency 0.18/h                            0.071             that pyramid creeps at 25 mm/s
-//   n as in this substep (mass_splitting.h)             columns in a pile of ten thousand sway at 3 to 80 mm/s for ever
-// and with 0.125/h:
-//   as it is                                            0.147 m  0.048 m  0.026 m
-//   relaxation 1.8 in place of 1.5                      both columns, of 20 and of 40, fall within seconds
-//   relaxation 1.2                                      columns compress by a quarter more
-//   damping ratio 20; 40                                0.147; 0.148   0.056; 0.066   0.027; 0.029
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
-#include "shaders/physics/solve/contact_momentum.h"
 #include "shaders/physics/solve/friction.h"
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
@@ -62,12 +49,8 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     return c;
 }
 
-// A contact that bears nothing and approaches faster than gravity makes it in so many substeps waits for the next substep, where
-// its bodies are split among all that they meet. The relax pass knows only the contacts that were active when the substep began:
-// of 2,000 heavy bodies that fell upon light ones on up to five supports, 213 left with more energy than they brought, up to
-// hundreds of times, because each support answered with the whole mass. With restitution every approach of a point waits, and is
-// an impact there or none. (With an impulse for what a speculative impact had moved by 0.02 m/s, a ball was in resting contact
-// with the next one when the rest of the impact came, and a touching row of four passed on a third of its energy.)
+// A contact of several points that bears nothing and approaches faster than what gravity adds to a speed in so many substeps is
+// solved in several sweeps: after a single one what falls flat would be left with a spin.
 CONSTANT float ARRIVAL = 4.0f;
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
@@ -88,7 +71,6 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         striking = choose(bounces, impact_velocities(c, impulse, v, a, b, around, parameters), vec4(0.0f));
     }
     bool strikes = is_any(striking);
-    // A single sweep would leave what falls flat without restitution with a spin.
     bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f;
     if (!none(arrives)) {
         float speed = normal_speed(c, c.centre, impulse.center_offset, v);
@@ -97,7 +79,6 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     vec4 normal_before = impulse.normal;
     VelocityPair before_impact = v;
     float normal = 0.0f;
-    float cut = choose((c.flags & CONSTRAINT_RESTLESS) != 0u, 0.0f, LEAK_CUT);
     uint sweeps = choose((strikes && point_count(c) > 1u) || arrives, uint(IMPACT_SWEEPS), 1u);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
@@ -116,8 +97,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            float leak = parameters.impulse_scale * (1.0f - cut * contact_momentum(row, point_count(c), a, b, parameters));
-            change = choose(separation <= 0.0f, part * change - leak * before, change);
+            change = choose(separation <= 0.0f, part * change - parameters.impulse_scale * before, change);
             float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
@@ -132,35 +112,11 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
 
-// A body in motion that contacts do not move; what it meets does not wait: after the last substep it would be left behind. For
-// the same reason nothing without restitution waits in the last substep (continuous collision would clamp what moves on, and a
-// clamp changes the angular momentum), nor what would be through the other body in one substep (longest_wait()).
-LAW bool drives(Mass mass, Velocity velocity) {
-    return mass.inverse_mass == 0.0f && dot3(velocity.linear, velocity.linear) + dot3(velocity.angular, velocity.angular) > 0.0f;
-}
-LAW float arrival_speed(Constraint c, VelocityPair v, Mass a, Mass b, bool last, Parameters parameters) {
-    bool goes_on = last || drives(a, v.a) || drives(b, v.b);
-    float least = choose(goes_on, 1.0e30f, ARRIVAL * fall_speed(parameters));
-    return choose(c.restitution > 0.0f, 0.0f, least);
-}
-// The fastest approach that waits, m/s.
-LAW float longest_wait(Constraint c, Parameters parameters) {
-    return choose(c.restitution > 0.0f, 1.0e30f, (2.0f * c.slide_limit) * parameters.inverse_h);
-}
-
-// Whether a contact without restitution arrives beside others: it approaches faster than what waits, and has borne less than what
-// stops it. In the biased pass shares of the mass that are over-relaxed overshoot, and the relax pass takes that back. What
-// overshoots in the relax pass is gone, so a contact that arrives there answers with its true share. (With over-relaxed shares,
-// boxes and balls that fell upon two to nine fixed boxes side by side rose with 13 to 25% of their speed in the mean, at worst
-// with 4.7 times of it; now with 0.1 to 0.7%, at worst 8%.)
-LAW bool arrives_among_others(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, Parameters parameters) {
-    bool arrives = larger(a.split, b.split) > 1.0f && !(c.restitution > 0.0f);
-    if (none(arrives)) return arrives;
-    LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
-    float speed = dot3(c.normal, velocity_at(r, v));
-    arrives = arrives && speed < -ARRIVAL * fall_speed(parameters);
-    if (none(arrives)) return arrives;
-    return arrives && normal_impulse(impulse) <= -mass_along(jacobian_row(r, c.normal, a, b), a, b) * speed;
+// Whether a contact without restitution that has borne nothing yet meets bodies that are split among several. In the biased pass
+// over-relaxed shares of the mass overshoot, and the relax pass takes that back. What overshoots in the relax pass is gone, so
+// such a contact answers there with its true share.
+LAW bool bears_first(Constraint c, Impulse impulse, Mass a, Mass b) {
+    return larger(a.split, b.split) > 1.0f && !(c.restitution > 0.0f) && normal_impulse(impulse) == 0.0f;
 }
 LAW float true_split(float split, Parameters parameters) {
     return choose(split > 1.0f, split * reciprocal(parameters.inverse_relaxation), split);
@@ -192,9 +148,9 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
 }
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
-// applies restitution and friction. `part`: part_of_stiffness(); `last`: in the last substep of a step.
+// applies restitution and friction. `part`: part_of_stiffness().
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b,
-                              ImpactContext around, float part, bool last, Parameters parameters) {
+                              ImpactContext around, float part, Parameters parameters) {
     bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
@@ -210,17 +166,14 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, around);
     impulse = result.impulse;
     v = result.pair_velocity;
-    float arrival = arrival_speed(c, v, a, b, last, parameters);
-    float fastest = longest_wait(c, parameters);
     float split_a = a.split, split_b = b.split;
     VelocityPair before_arrival = v;
-    bool arriving = arrives_among_others(c, impulse, v, a, b, parameters);
+    bool arriving = bears_first(c, impulse, a, b);
     if (!none(arriving)) {
         a.split = choose(arriving, true_split(split_a, parameters), split_a);
         b.split = choose(arriving, true_split(split_b, parameters), split_b);
     }
     float normal = 0.0f;
-    vec4 momentum = vec4(0.0f), parting = vec4(0.0f);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
@@ -230,14 +183,12 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         float speed = dot3(c.normal, velocity_at(r, v));
         float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
         float before = impulse.normal[k];
-        bool waits = speed < -arrival && speed > -fastest;
+        bool waits = c.restitution > 0.0f && speed < 0.0f;  // an approach is an impact of the next biased pass, or none
         bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
         if (none(acts)) continue;
         JacobianRow row = jacobian_row(r, c.normal, a, b);
         float mass = mass_along(row, a, b);
-        momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
-        parting[k] = choose(acts && speed > PARTING * fall_speed(parameters), 1.0f, 0.0f);
-        acts = acts && !(c.restitution > 0.0f && waits && before <= -IMPACT_DISTANCE * mass * speed);
+        acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
         float after = choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target))));
         impulse.normal[k] = choose(acts, after, before);
         normal = choose(acts, normal + after, normal);
@@ -249,9 +200,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         a.split = split_a;
         b.split = split_b;
     }
-    float borne = solved_impulse(impulse), fall = borne - normal;
-    bool falls = fall > FALLING_PART * borne && fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
-    result.impulse = with_momentum(impulse, point_count(c), momentum, choose(falls, parting, vec4(0.0f)));
+    result.impulse = impulse;
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, false, parameters);
 }
@@ -290,14 +239,11 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
 LAW float counted_separation(Parameters parameters) {
     return 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
 }
-LAW bool comes_near(Constraint c, float separation, float speed, float near, Parameters parameters) {
-    bool arrives = speed < -ARRIVAL * fall_speed(parameters) && !(c.restitution > 0.0f);
-    float ahead = choose(arrives, 2.0f * parameters.h, parameters.h);
-    return separation + ahead * speed < near;
+LAW bool comes_near(float separation, float speed, float near, Parameters parameters) {
+    return separation + parameters.h * speed < near;
 }
 // Whether the contact counts in mass splitting, 1 or 0: a point bears a normal impulse, or will within the next
-// substep, gravity included. What arrives without restitution counts two substeps ahead: in the last substep of a step it acts
-// before it meets (arrival_speed()), and uncounted each of several supports would answer with the whole mass.
+// substep, gravity included.
 LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     bool carrying = false;
     bool open = !(impulse.slide_distance > c.slide_limit);
@@ -309,24 +255,10 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
         open = open && !carrying;
         if (none(open)) break;
         float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
-        carrying = carrying || (open && comes_near(c, impulse.separation[k], speed, near, parameters));
+        carrying = carrying || (open && comes_near(impulse.separation[k], speed, near, parameters));
         open = open && !carrying;
     }
     return choose(carrying, 1.0f, 0.0f);
-}
-
-// Impacts on a body that is split among more than so many count for the next substep.
-CONSTANT float IMPACTS_AT_ONCE = 1.5f;
-
-// is_active() for the next substep, after the relax pass: a contact that took a blow in the biased pass counts too, by what it
-// does to the lighter body. A heavy body that falls upon a light one presses it onto its supports in every biased pass, and the
-// light body leaves them again in every relax pass; supports that did not count would answer with the whole mass each, together
-// for more than one body. (If whatever bore counted, contacts of a settling pile that come and go would keep it awake.) A single
-// impact does not count, so that the next one, with another body, finds the whole mass; several at once come again together.
-LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPair v, Mass a, Mass b, Parameters parameters) {
-    bool blow = is_blow(normal_impulse(biased), larger(a.inverse_mass, b.inverse_mass), parameters);
-    bool struck = is_impact(biased), at_once = larger(a.split, b.split) > IMPACTS_AT_ONCE;
-    return choose((struck && at_once) || (!struck && blow), 1.0f, is_active(c, relaxed, v, parameters));
 }
 
 // A contact is unloaded if all its impulses are zero. A pass changes nothing of such a contact but what after_motion() does, and
@@ -356,7 +288,7 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
         float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
         float separation = impulse.separation[k];
         float target = choose(separation > 0.0f, separation * parameters.inverse_h, 0.0f);
-        bool counts = open && comes_near(c, separation, speed, near, parameters);
+        bool counts = open && comes_near(separation, speed, near, parameters);
         // What closes the gap comes near as well, but for rounding and contacts that end.
         loads = loads || (there && (counts || !(speed + target >= 0.0f)));
     }

@@ -68,10 +68,6 @@ LAW float split_factor(float split_state, float normal_sum, Parameters parameter
 LAW float normal_impulse(Impulse impulse) {
     return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
 }
-// The same as the last relax pass solved it, without momentum.
-LAW float solved_impulse(Impulse impulse) {
-    return (impulse.solved_normal.x + impulse.solved_normal.y) + (impulse.solved_normal.z + impulse.solved_normal.w);
-}
 LAW Mass split_mass(BodyMass body, Impulse impulse, Parameters parameters) {
     Mass mass = whole_mass(body);
     mass.split = split_factor(body.split_state, impulse.normal_sum, parameters);

@@ -96,6 +96,11 @@ LAW bool is_spin_limited(Velocity velocity, Parameters parameters) {
     return dot3(velocity.angular, velocity.angular) > 0.99f * (parameters.max_spin * parameters.max_spin);
 }
 
+// The record of a body's mass at an orientation.
+LAW BodyMass turned_mass(BodyMass mass, BodyProperties properties, vec4 orientation) {
+    return body_mass(mass_in_world(properties, orientation), mass.split_state);
+}
+
 // Sets velocities and applies the user's impulses at the start of the step.
 LAW Velocity apply_impulses(Velocity velocity, Action action, Mass mass, Parameters parameters) {
     bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u;

@@ -389,7 +389,6 @@ LAW Impulse clear_impacts(Impulse impulse, uint count) {
         if (none(there)) break;
         bool struck = there && impulse.impact[k] > 0.0f;
         impulse.normal[k] = choose(struck, 0.0f, impulse.normal[k]);
-        impulse.solved_normal[k] = choose(struck, 0.0f, impulse.solved_normal[k]);
         impulse.impact[k] = choose(lasts, impulse.impact[k], 0.0f);
         blow = blow || struck;
         normal = choose(there, normal + impulse.normal[k], normal);

@@ -9,7 +9,6 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/driven.h"
-#include "shaders/physics/solve/mass_scaling.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
 
@@ -31,17 +30,7 @@ void begin_body(uint i, bool first) {
     if (body.motion != MOTION_DYNAMIC || is_foreign(body)) return;
     Gathered sum = gather(i);
     BodyMass mass = READ(masses, i);
-    float scale = mass_scale(mass, body);
-    Velocity velocity = READ(velocities, i);
-    BodyForces load = READ(forces, i);
-    ScaledMotion motion = ScaledMotion(vec3(0.0f), 0.0f);
-    if (scale > 1.0f) {
-        ScaledChange scaled = with_acceleration(sum.change, velocity, scaled_motion_of(i), load, scale, PARAMETERS);
-        sum.change = scaled.change;
-        motion = scaled.motion;
-        write_scaled_motion(i, motion);
-    }
-    velocity = integrate_velocity(velocity, sum.change, scaled_forces(load, scale), body, PARAMETERS);
+    Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
             velocity = pulled(velocity, READ(poses, i), whole_mass(mass), PARAMETERS.grips[k], PARAMETERS);
@@ -52,11 +41,6 @@ void begin_body(uint i, bool first) {
     if (first) mass.split_state = update_hysteresis(mass.split_state, sum.weight, age);
     mass.split_state = split_state_after(mass.split_state, sum.weight, sum.normal_impulse);
     masses.at[i].split_state = mass.split_state;
-    if (!first) return;
-    Parameters felt = felt_by(i);
-    float next = next_mass_scale(mass, body, velocity, felt);
-    if (next > 1.0f) write_scaled_motion(i, next_scaled_motion(motion, mass, body, velocity, felt));
-    if (next != scale) masses.at[i] = mass_with_scale(mass, body, READ(poses, i).orientation, next);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
@@ -82,7 +66,7 @@ void move_body(uint i) {
     }
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
-    if (!has_isotropic_inertia(body)) masses.at[i] = mass_with_scale_of(READ(masses, i), body, after.pose.orientation);
+    if (!has_isotropic_inertia(body)) masses.at[i] = turned_mass(READ(masses, i), body, after.pose.orientation);
 }
 
 #endif

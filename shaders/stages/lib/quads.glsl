@@ -1,5 +1,4 @@
-// The tables of quads (tables.h) in one buffer: constant scene data, of which READ_QUADS(table, i) is the i-th record, and the
-// motions of bodies with scaled mass.
+// The tables of quads (tables.h) in one buffer: constant scene data, of which READ_QUADS(table, i) is the i-th record.
 #ifndef SCREE_STAGES_QUADS_GLSL
 #define SCREE_STAGES_QUADS_GLSL
 
@@ -32,15 +31,6 @@ SCREE_READER_PoseInBody(parts, SCREE_QUAD, SCREE_IN_TURN) SCREE_READER_Fracturin
     // The pose of a part in its body.
     PoseInBody part_in(uint row) {
     return READ_QUADS(parts, row - PARAMETERS.first_part);
-}
-
-// Written and read again within a fused stage, so not through texels.
-ScaledMotion scaled_motion_of(uint row) {
-    vec4 motion = uintBitsToFloat(quads.at[PARAMETERS.scaled_motions_offset + row]);
-    return ScaledMotion(vec3(motion.x, motion.y, motion.z), motion.w);
-}
-void write_scaled_motion(uint row, ScaledMotion motion) {
-    quads.at[PARAMETERS.scaled_motions_offset + row] = floatBitsToUint(vec4(motion.linear, motion.waits));
 }
 
 #endif

@@ -78,7 +78,6 @@
     X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                           \
     X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */               \
     X(27, tyres, QuadsTable, Tyre, tyres)                                                                      \
-    X(27, scaled_motions, QuadsTable, ScaledMotion, bodies) /* of bodies with scaled mass: mass_scaling.h */   \
     X(27, immersions, QuadsTable, Immersion, immersions)    /* by id, if there is air or water: fields.h */    \
     X(27, surfaces, QuadsTable, Surface, surfaces)          /* of rows with one: material.h */                 \
     X(27, way_points, QuadsTable, WayPoint, way_points)     /* of the vehicles' routes */                      \
