@@ -7,7 +7,7 @@ namespace scree {
 
 struct Settings {
     float rate = 60;   // steps per second, 10 to 1000
-    int substeps = 8;  // per step, 1 to 64. Contact stiffness grows with its square, cost in proportion
+    int substeps = 12;  // per step, 1 to 64. Contact stiffness grows with its square, cost in proportion
 
     // Contact constraint: a damped spring solved implicitly (Catto, Soft Constraints, GDC 2011).
     float contact_hertz = 0.14f;         // of the substep rate. Above 0.14 split contacts over-react and stacks jitter

@@ -65,20 +65,11 @@ void for_each_group_of_bodies(std::size_t bodies, const Threads& threads, const 
                        Threads::grain / lanes);
 }
 
-// Steps of the copy that a body belongs to.
-physics::uint age_of(const State& state, std::size_t body) {
-    const physics::uint steps = state.counted().steps;
-    return state.has_copies() ? physics::age_of_copy(steps, state.births[state.copy_of(static_cast<std::uint32_t>(body))])
-                              : steps;
-}
-
-void begin_substep_of(State& state, std::size_t i, bool first) {
+void begin_substep_of(State& state, std::size_t i) {
     const SlotSum sum = sum_of_slots(state, i);
     state.velocities[i] =
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
-    float& split_state = state.masses[i].split_state;
-    if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
-    split_state = physics::split_state_after(split_state, sum.weight, sum.normal_impulse);
+    state.masses[i].split_state = physics::pack_split_state(sum.weight, sum.normal_impulse);
 }
 
 void move(State& state, std::size_t i) {
@@ -165,17 +156,10 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
         if (first != 0) make_room_for_bodies(state, static_cast<std::size_t>(wide->lanes));
         WideTables tables = wide_tables(state, bodies);
         tables.first = first != 0;
-        tables.steps = state.counted().steps;
-        std::vector<std::uint32_t> ages;
-        if (first && state.has_copies()) {
-            ages.resize(state.fixed().bodies);
-            threads.for_each(ages.size(), [&](std::size_t i) { ages[i] = age_of(state, i); });
-            tables.ages = ages.data();
-        }
         for_each_group_of_bodies(bodies.size(), threads, *wide,
                                  [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
     } else {
-        threads.for_each(bodies.size(), [&](std::size_t k) { begin_substep_of(state, bodies[k], first != 0); });
+        threads.for_each(bodies.size(), [&](std::size_t k) { begin_substep_of(state, bodies[k]); });
     }
     const std::span grips = std::span(state.fixed().grips).first(state.fixed().held);
     for (const physics::Grip& grip : grips) {

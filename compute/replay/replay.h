@@ -46,7 +46,7 @@ struct Input {
     std::size_t bodies = 0;
     std::uint64_t seed = 1;
     float rate = 60;
-    int substeps = 8;
+    int substeps = 12;
     bool sleeping = true;
     std::optional<std::uint64_t> start_hash, end_hash;
     std::uint64_t steps = 0;

@@ -293,7 +293,7 @@ json parsed(std::string_view text) {
 }
 
 void read_settings(const json& value, const Place& root, Input& input) {
-    std::size_t seed = 1, substeps = 8;
+    std::size_t seed = 1, substeps = static_cast<std::size_t>(Settings{}.substeps);
     optional(value, root, "bodies", input.bodies);
     optional(value, root, "seed", seed);
     optional(value, root, "rate", input.rate);

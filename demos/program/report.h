@@ -28,7 +28,7 @@ struct RunReport {
     std::string canvas;     // API and device that drew the pictures; empty: no pictures
     std::uint64_t steps = 0;
     float rate = 60;  // Hz
-    int substeps = 8;
+    int substeps = 12;
     std::uint64_t resumed_at = 0;  // steps done before it was resumed from a checkpoint
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     double first_step_seconds = 0;  // until the end of the first step, with opening the device and creating pipelines

@@ -7,5 +7,5 @@
 
 void main() {
     drive_body(thread(), push.pass >> PASS_FOLLOWING);
-    begin_body(thread(), (push.pass & PASS_FIRST) != 0u);
+    begin_body(thread());
 }

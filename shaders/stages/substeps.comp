@@ -14,7 +14,7 @@ void main() {
     for (uint substep = before + 1u; substep <= before + count; ++substep) {
         uint pass = (substep == whole ? PASS_LAST : 0u) | (substep == 1u ? PASS_FIRST : 0u);
         FOR_EACH(i, PARAMETERS.actions) drive_body(i, whole - substep);
-        FOR_EACH(i, bodies) begin_body(i, substep == 1u);
+        FOR_EACH(i, bodies) begin_body(i);
         end_part();
         FOR_EACH(i, contacts) solve_contact(i);
         end_part();

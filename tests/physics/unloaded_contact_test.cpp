@@ -50,7 +50,8 @@ Meeting random_meeting(tests::Noise& noise) {
     made.c.twist_arm = one_in(2) ? 0.2f : 0.0f;
     made.c.slide_limit = one_in(8) ? 0.0f : 0.3f;
     if (one_in(2)) made.c.flags |= CONSTRAINT_ON_B;
-    for (int k = 0; k < 4; ++k) made.c = with_lever_arm(made.c, k, noise.vector());
+    made.c.points_u = vec4{noise(), noise(), noise(), noise()};
+    made.c.points_v = vec4{noise(), noise(), noise(), noise()};
     made.c.centre = noise.vector();
     made.impulse = no_impulse(offset);
     made.impulse.separation = vec4(0.006f) + 0.01f * vec4{noise(), noise(), noise(), noise()};
@@ -58,9 +59,9 @@ Meeting random_meeting(tests::Noise& noise) {
         made.c.flags = 1 | CONSTRAINT_ROUND;
         made.c.radius_a = 0.2f;
         made.c.radius_b = 0.4f;
-        made.c = with_lever_arm(made.c, 0, 0.1f * noise.vector());
+        made.c.points_u = vec4(0.1f * noise.vector(), 0.0f);
         const vec3 way = unit3(contact.normal + 0.5f * noise.vector(), contact.normal);
-        made.c.centre = lever_arm(made.c, 0) + way * (0.606f + 0.01f * noise()) - offset;
+        made.c.centre = round_centre_of_a(made.c) + way * (0.606f + 0.01f * noise()) - offset;
         made.impulse.separation.x = round_gap(made.c, offset);
     }
     if (one_in(4)) made.c.flags |= CONSTRAINT_ROLLS_ONLY;
@@ -154,7 +155,7 @@ TEST_CASE("an unloaded contact that nothing may load changes in the relax pass b
         }
         INFO("contact " << i);
         REQUIRE(stays);
-        REQUIRE(is_zero(warm_start(m.c, after.impulse, to_body_deltas(m.v, after.velocity, m.a, m.b), m.a, m.b)));
+        REQUIRE(is_zero(after.share));
         tally.add(m.c, tally.kept);
     }
     tally.check();

@@ -33,43 +33,4 @@ inline Scene laden_column(int count, float size, float thickness, float ratio, s
     return scene;
 }
 
-struct Slivers {
-    Scene scene;
-    std::size_t first = 0;       // body
-    std::vector<float> lengths;  // m
-};
-// Wedges of 10 to 25 cm, 2 to 7% as thick, in a bin of 1 m, and boxes of 0.3 m in four stacks that fall upon them.
-inline Slivers slivers_under_boxes(int slivers, int boxes, std::uint32_t seed) {
-    Noise noise(seed);
-    const auto between = [&](float from, float to) { return from + (to - from) * 0.5f * (noise() + 1); };
-    Slivers made;
-    std::vector<Body>& bodies = made.scene.bodies;
-    bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
-    for (const float side : {-0.6f, 0.6f}) {
-        bodies.push_back({.name = "wall", .motion = Motion::fixed, .shape = Box{{0.1f, 3, 0.7f}}, .position = {side, 3, 0}});
-        bodies.push_back({.name = "wall", .motion = Motion::fixed, .shape = Box{{0.7f, 3, 0.1f}}, .position = {0, 3, side}});
-    }
-    made.first = bodies.size();
-    for (int i = 0; i < slivers; ++i) {
-        const float length = between(0.1f, 0.25f), x = 0.5f * length;
-        const float y = 0.5f * length * between(0.02f, 0.07f), z = 0.5f * length * between(0.25f, 0.5f);
-        Hull wedge;
-        for (const float side : {-z, z})
-            for (const vec3 corner : {vec3(-x, -y, side), vec3(x, -y, side), vec3(-x, y, side)}) wedge.points.push_back(corner);
-        Body body{.name = "sliver", .shape = wedge};
-        body.position = {between(-0.35f, 0.35f), 0.1f + 0.04f * static_cast<float>(i), between(-0.35f, 0.35f)};
-        const vec3 axis = noise.vector();
-        body.orientation = glm::normalize(vec4(axis, noise()));
-        made.lengths.push_back(length);
-        bodies.push_back(body);
-    }
-    for (int i = 0; i < boxes; ++i) {
-        Body box{.name = "box", .shape = Box{vec3(0.15f)}};
-        const vec3 place(i % 2 == 0 ? -0.17f : 0.17f, 2.8f + 0.35f * static_cast<float>(i / 4), i / 2 % 2 == 0 ? -0.17f : 0.17f);
-        box.position = place + 0.01f * vec3{noise(), 0, noise()};
-        bodies.push_back(box);
-    }
-    return made;
-}
-
 }  // namespace scree::tests

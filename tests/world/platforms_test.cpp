@@ -15,7 +15,7 @@ namespace {
 
 struct Ride {
     float rate = 60;
-    int substeps = 8;
+    int substeps = 12;
     float half = 0.2f;    // of the box that rides, m
     vec3 place{0};        // of the box on the platform, m
     bool by_bulk = true;  // set_bodies, else set_velocity

@@ -46,13 +46,6 @@ SCREE_INLINE VelocityDelta sums_of_slots(const WideTables& tables, const Indices
     return gather<VelocityDelta>(sums, Indices(lane_numbers()));
 }
 
-SCREE_INLINE Uint steps_of(const WideTables& tables, const Indices& bodies) {
-    if (tables.ages == nullptr) return tables.steps;
-    Words words;
-    for (int lane = 0; lane < lanes; ++lane) words[lane] = tables.ages[bodies.of[lane]];
-    return words;
-}
-
 // Of a group of bodies what stays through a step, from begin of the first substep on.
 struct KeptBodies {
     vec3 acceleration;
@@ -103,9 +96,7 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         const Indices live = bodies.only(living(first, last));
         const Velocity velocity =
             integrate_velocity(gather<Velocity>(tables.velocities, bodies), change, group.load, group.properties, p);
-        Float state = gather<BodyMass>(tables.masses, bodies).split_state;
-        if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
-        state = split_state_after(state, sum.weight, sum.normal_impulse);
+        const Float state = pack_split_state(sum.weight, sum.normal_impulse);
         scatter(tables.velocities, live, velocity);
         scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, split_state), state);
     }

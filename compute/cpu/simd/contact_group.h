@@ -32,9 +32,8 @@ SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std
         if (!none(point_count(now) > 2u)) fetch(of.z, of.w);
     };
     fetch(next.c.a, next.c.friction);
-    fetch_points(next.c.arms_x);
-    fetch_points(next.c.arms_y);
-    fetch_points(next.c.arms_z);
+    fetch_points(next.c.points_u);
+    fetch_points(next.c.points_v);
     if (!plain) fetch(next.c.drive1, next.c.restitution_threshold);
     fetch(next.c.centre, next.c.twist_arm);
     if (!plain) fetch(next.c.rolling_resistance, next.c.restitution);

@@ -94,10 +94,9 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
         copy_record(prepared.c, c);
         copy_record(prepared.impulse, from.impulse);
         if (tables.plain) narrow(prepared.impulse);
-        const Mass ma = split_mass(gather<BodyMass>(tables.masses, a), from.impulse, p);
-        const Mass mb = split_mass(gather<BodyMass>(tables.masses, b), from.impulse, p);
+        const Mass ma = whole_mass(gather<BodyMass>(tables.masses, a)), mb = whole_mass(gather<BodyMass>(tables.masses, b));
         const Float weight = is_active(c, from.impulse, now, p);
-        const VelocityPair share = warm_start(c, from.impulse, to_body_deltas(now, now, ma, mb), ma, mb);
+        const VelocityPair share = warm_start(c, from.impulse, ma, mb);
         to_slots(tables, live, c, share, weight, from.impulse.normal_sum);
         tables.unloaded[first / lanes] = is_unloaded(prepared.impulse, share, weight);
     }
@@ -125,10 +124,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
         }
         const Group<false> group(tables, first, last);
-        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
+        const Mass ma = whole_mass(gather<BodyMass>(tables.masses, group.a));
+        const Mass mb = whole_mass(gather<BodyMass>(tables.masses, group.b));
         const Float weight = is_active(group.c, group.impulse, group.before, p);
-        const VelocityPair share = warm_start(group.c, group.impulse, to_body_deltas(group.before, group.before, ma, mb), ma, mb);
+        const VelocityPair share = warm_start(group.c, group.impulse, ma, mb);
         group.hand_out(tables, share, weight, group.impulse.normal_sum);
         if (tables.plain) narrow(prepared.impulse);
         tables.unloaded[first / lanes] = is_unloaded(prepared.impulse, share, weight);

@@ -43,8 +43,6 @@ struct WideTables {
     bool prefetches = false;   // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
     float* impact_debts = nullptr;        // of each body, J (restitution.h)
     float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
-    const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene
     bool first = false;                   // the first substep of a step
     bool last = false;                    // the last one
 };

@@ -298,13 +298,14 @@ struct Constraint {
     uint slot_a, slot_b;  // slots of their VelocityDelta; NONE for a body that contacts do not move
     vec3 normal;          // unit, world, from A to B
     float friction;       // Coulomb coefficient of the pair
-    // Lever arms, per point: from the anchor body's centre, m (CONSTRAINT_ROUND: from A's to its centre of curvature).
-    vec4 arms_x, arms_y, arms_z;
+    // The points in the plane of the patch, from `centre`, m: along tangent(normal) and cross3(normal, tangent(normal)).
+    // CONSTRAINT_ROUND: x, y and z of points_u are A's centre of curvature, from its centre.
+    vec4 points_u, points_v;
     // Slip of B's surface over A's while the bodies stand still, along both tangents of the normal, m/s (surface.h).
     float drive1, drive2;
     float static_friction;        // coefficient, or 0: the dynamic one
     float restitution_threshold;  // speed of the slowest impacts, m/s, or 0: the setting's
-    vec3 centre;                  // of the friction patch, m (CONSTRAINT_ROUND: from B's centre to its centre of curvature)
+    vec3 centre;                  // of the patch, from the anchor body's, m (CONSTRAINT_ROUND: from B's centre to its centre of curvature)
     float twist_arm;              // of torsional friction, m: mean distance of the patch from its centre
     float rolling_resistance;     // of the pair, m
     float restitution;            // of the pair

@@ -1,4 +1,4 @@
-// Accessors of a contact constraint: its points, their lever arms, and the body they are fixed to.
+// Accessors of a contact constraint: its points, and the body they are fixed to.
 #ifndef SCREE_PHYSICS_CONSTRAINT_H
 #define SCREE_PHYSICS_CONSTRAINT_H
 
@@ -25,14 +25,9 @@ LAW bool leads_in_block(Constraint c) {
     return (c.flags & CONSTRAINT_LEADS) != 0u;
 }
 
-LAW vec3 lever_arm(Constraint c, int point) {
-    return vec3(c.arms_x[point], c.arms_y[point], c.arms_z[point]);
-}
-LAW Constraint with_lever_arm(Constraint c, int point, vec3 arm) {
-    c.arms_x[point] = arm.x;
-    c.arms_y[point] = arm.y;
-    c.arms_z[point] = arm.z;
-    return c;
+// The centre of curvature of body A, from its centre of mass, m.
+LAW vec3 round_centre_of_a(Constraint c) {
+    return vec3(c.points_u.x, c.points_u.y, c.points_u.z);
 }
 
 LAWS_END

@@ -79,9 +79,8 @@ LAW Constraint idle_constraint(Contact contact) {
     c.slot_b = NONE;
     c.normal = contact.normal;
     c.friction = 0.0f;
-    c.arms_x = vec4(0.0f);
-    c.arms_y = vec4(0.0f);
-    c.arms_z = vec4(0.0f);
+    c.points_u = vec4(0.0f);
+    c.points_v = vec4(0.0f);
     c.drive1 = 0.0f;
     c.drive2 = 0.0f;
     c.static_friction = 0.0f;
@@ -111,14 +110,18 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     bool on_b = anchor == CONSTRAINT_ON_B, round = anchor == CONSTRAINT_ROUND;
     c.flags = contact.count | anchor;
     c.slide_limit = slide_limit_of(contact, ta, tb, anchor);
-    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters), on_b);
+    bool single = contact.count == 1u;
+    vec3 centre = choose(single, meeting_point(contact, 0, on_b), patch_centre(contact, speculative_of(ta, tb, parameters), on_b));
+    vec3 u = tangent(contact.normal), v = cross3(contact.normal, u);
     float reach = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < contact.count;
         if (none(there)) break;
         vec3 arm = meeting_point(contact, k, on_b);
-        c = with_lever_arm(c, k, choose(there, choose(on_b, arm - contact.center_offset, arm), lever_arm(c, k)));
-        reach = choose(there, reach + length3(arm - centre), reach);
+        vec3 way = arm - centre;
+        c.points_u[k] = choose(there, flush_tiny(dot3(way, u)), 0.0f);
+        c.points_v[k] = choose(there, flush_tiny(dot3(way, v)), 0.0f);
+        reach = choose(there, reach + length3(way), reach);
     }
     c.twist_arm = twist_arm_of(ta, tb, contact.count, reach * reciprocal(float(contact.count)));
     c.centre = choose(on_b, centre - contact.center_offset, centre);
@@ -128,7 +131,7 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     vec3 half_gap = contact.normal * (0.5f * contact.points[0].w), middle = xyz(contact.points[0]);
     vec3 core_a = middle - half_gap - contact.normal * c.radius_a;
     vec3 core_b = (middle - contact.center_offset) + half_gap + contact.normal * c.radius_b;
-    c = with_lever_arm(c, 0, choose(round, core_a, lever_arm(c, 0)));
+    c.points_u = choose(round, vec4(core_a, 0.0f), c.points_u);
     c.centre = choose(round, core_b, c.centre);
     return c;
 }

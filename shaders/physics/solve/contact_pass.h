@@ -56,7 +56,7 @@ LAW PassOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, Block
     PassOutcome outcome;
     outcome.impulse = after.impulse;
     outcome.velocity = after.pair_velocity;
-    outcome.share = to_body_deltas(v, after.pair_velocity, bodies.a, bodies.b);
+    outcome.share = changes_after(c, after, after.impulse, false, bodies.a, bodies.b);
     outcome.weight = after.impulse.impact_weight;
     outcome.passed_on = impact_debt(after.impulse);
     outcome.borne = 0.0f;
@@ -72,10 +72,9 @@ LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockB
     outcome.impulse = clear_impacts(after.impulse, point_count(c));
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
-    outcome.share = to_body_deltas(v, after.pair_velocity, bodies.a, bodies.b);
+    outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
     outcome.weight = is_active(c, outcome.impulse, after.pair_velocity, parameters);
     outcome.passed_on = outcome.impulse.normal_sum;
-    if (none(last)) outcome.share = warm_start(c, outcome.impulse, outcome.share, bodies.a, bodies.b);
     return outcome;
 }
 

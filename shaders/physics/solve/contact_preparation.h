@@ -62,13 +62,10 @@ LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {
 // Half the sum of the last impulses of an impact times the present velocities, J.
 LAW float impact_work(Constraint c, vec4 impact, vec3 center_offset, VelocityPair now) {
     c = refresh_round_contact(c, center_offset);
+    vec3 speeds = normal_speeds(c, center_offset, now);
     float work = 0.0f;
-    for (int k = 0; k < 4; ++k) {
-        if (uint(k) < point_count(c) && impact[k] > 0.0f) {
-            float speed = normal_speed(c, lever_arm(c, k), center_offset, now);
-            work = work + 0.5f * (impact[k] * speed);
-        }
-    }
+    for (int k = 0; k < 4; ++k)
+        if (uint(k) < point_count(c) && impact[k] > 0.0f) work = work + 0.5f * (impact[k] * speed_at(c, speeds, k));
     return work;
 }
 // An impact that lasts from the last step, whose last impulses did their work along the rows of that step, `before`: the
@@ -92,10 +89,9 @@ struct ContactShare {
     float pad2;
 };
 LAW ContactShare first_share(Constraint c, Impulse impulse, VelocityPair now, BodyMass a, BodyMass b, Parameters parameters) {
-    Mass lent_a = split_mass(a, impulse, parameters), lent_b = split_mass(b, impulse, parameters);
     ContactShare share;
     share.weight = is_active(c, impulse, now, parameters);
-    share.change = warm_start(c, impulse, to_body_deltas(now, now, lent_a, lent_b), lent_a, lent_b);
+    share.change = warm_start(c, impulse, whole_mass(a), whole_mass(b));
     share.pad0 = 0.0f;
     share.pad1 = 0.0f;
     share.pad2 = 0.0f;

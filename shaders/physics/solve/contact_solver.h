@@ -25,33 +25,37 @@
 #include "shaders/physics/solve/friction.h"
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/normal_rows.h"
 #include "shaders/physics/solve/restitution.h"
 
 LAWS_BEGIN
 
 LAW float round_gap(Constraint c, vec3 d) {
-    return length3((d + c.centre) - lever_arm(c, 0)) - (c.radius_a + c.radius_b);
+    return length3((d + c.centre) - round_centre_of_a(c)) - (c.radius_a + c.radius_b);
 }
 // The constraint at the present poses: between two round bodies, normal and point follow the centres of curvature.
 LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     bool follows = is_of_round_bodies(c);
     if (none(follows)) return c;
-    vec3 core = lever_arm(c, 0);
+    vec3 core = round_centre_of_a(c);
     bool driven = follows && is_driven(c);
     vec3 drive = vec3(0.0f);
     if (!none(driven)) drive = drive_of(c);
     c.normal = choose(follows, unit3((d + c.centre) - core, c.normal), c.normal);
-    vec3 arm = core + c.normal * (c.radius_a + 0.5f * round_gap(c, d));
-    c = with_lever_arm(c, 0, choose(follows, arm, core));
+    c.centre = choose(follows, core + c.normal * (c.radius_a + 0.5f * round_gap(c, d)), c.centre);
+    c.points_u = choose(follows, vec4(0.0f), c.points_u);
     if (!none(driven)) c = choose_drive(driven, with_drive(c, drive), c);
-    c.centre = choose(follows, arm, c.centre);
     c.flags = choose(follows, c.flags & ~CONSTRAINT_ROUND, c.flags);
     return c;
 }
 
-// A contact of several points that bears nothing and approaches faster than what gravity adds to a speed in so many substeps is
-// solved in several sweeps: after a single one what falls flat would be left with a spin.
+// What falls flat upon several points is solved in sweeps if it approaches faster than what gravity adds to a speed in so many
+// substeps: a single sweep would leave it with a spin.
 CONSTANT float ARRIVAL = 4.0f;
+LAW uint sweeps_of(Constraint c, Impulse impulse, vec3 speeds, Parameters parameters) {
+    bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f && speeds.x < -ARRIVAL * fall_speed(parameters);
+    return choose(arrives, uint(IMPACT_SWEEPS), 1u);
+}
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
 // are still apart. `part`: part_of_stiffness() of its block, 1 for a contact by itself.
@@ -62,32 +66,25 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     // Push-out speed, divided by the split factor because the pushes of overlapping neighbours add up from layer to
     // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
+    NormalRows rows = normal_rows(c, impulse.center_offset, a, b);
+    vec3 speeds = normal_speeds(c, impulse.center_offset, v), speeds_before = speeds;
     bool bounces = may_rebound(c, around);
     vec4 striking = vec4(0.0f);
     if (none(bounces)) {
         impulse = with_impact(impulse, impulse, false);  // also of an impact that lasts while restitution is taken away
     } else {
-        impulse = with_impact(impulse, impact_in_progress(c, impulse, v, around, parameters), bounces && !gone);
-        striking = choose(bounces, impact_velocities(c, impulse, v, a, b, around, parameters), vec4(0.0f));
+        impulse = with_impact(impulse, impact_in_progress(c, impulse, speeds, around, parameters), bounces && !gone);
+        striking = choose(bounces, impact_velocities(c, impulse, speeds, rows, around, parameters), vec4(0.0f));
     }
     bool strikes = is_any(striking);
-    bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f;
-    if (!none(arrives)) {
-        float speed = normal_speed(c, c.centre, impulse.center_offset, v);
-        arrives = arrives && speed < -ARRIVAL * fall_speed(parameters);
-    }
     vec4 normal_before = impulse.normal;
-    VelocityPair before_impact = v;
-    float normal = 0.0f;
-    uint sweeps = choose((strikes && point_count(c) > 1u) || arrives, uint(IMPACT_SWEEPS), 1u);
+    vec3 press = vec3(0.0f);
+    uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), sweeps_of(c, impulse, speeds, parameters));
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
-        bool swept = uint(sweep) < sweeps;
-        normal = choose(swept, 0.0f, normal);
         for (int k = 0; k < 4; ++k) {
-            bool there = swept && uint(k) < point_count(c);
+            bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
             if (none(there)) break;
-            LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-            float speed = dot3(c.normal, velocity_at(r, v));
+            float speed = speed_at(c, speeds, k);
             float separation = impulse.separation[k];
             float before = impulse.normal[k];
             float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
@@ -95,21 +92,22 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
                 choose(separation > 0.0f, speed + separation * parameters.inverse_h, parameters.mass_scale * speed + bias);
             bool acts = there && !(before == 0.0f && (gone || excess >= 0.0f));
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
-            JacobianRow row = jacobian_row(r, c.normal, a, b);
-            float change = -mass_along(row, a, b) * excess;
+            vec3 response = response_at(rows, c, k);
+            float change = -reciprocal(speed_at(c, response, k)) * excess;
             change = choose(separation <= 0.0f, part * change - parameters.impulse_scale * before, change);
-            float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
-            impulse.normal[k] = choose(acts, after, before);
-            normal = choose(acts, normal + after, normal);
-            v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
+            float after = choose(acts, choose(gone, 0.0f, positive(flush_tiny(before + change))), before);
+            impulse.normal[k] = after;
+            speeds = speeds + response * (after - before);
+            press = press + press_at(c, after - before, k);
         }
     }
     SolveResult result;
     result.impulse = impulse;
     if (!none(strikes || is_impact(impulse)))
-        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, a, b, around, parameters);
+        result.impulse = after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b, true, parameters);
+    result = pressed(result, c, rows, press, a, b);
+    return solve_patch_friction(c, result, normal_impulse(impulse), a, b, true, parameters);
 }
 
 // Whether a contact without restitution that has borne nothing yet meets bodies that are split among several. In the biased pass
@@ -118,26 +116,19 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 LAW bool bears_first(Constraint c, Impulse impulse, Mass a, Mass b) {
     return larger(a.split, b.split) > 1.0f && !(c.restitution > 0.0f) && normal_impulse(impulse) == 0.0f;
 }
-LAW float true_split(float split, Parameters parameters) {
-    return choose(split > 1.0f, split * reciprocal(parameters.inverse_relaxation), split);
-}
-// The change of the split bodies' velocities, scaled.
-LAW VelocityPair scaled_change(VelocityPair before, VelocityPair after, float of_a, float of_b) {
-    after.a.linear = before.a.linear + (after.a.linear - before.a.linear) * of_a;
-    after.a.angular = before.a.angular + (after.a.angular - before.a.angular) * of_a;
-    after.b.linear = before.b.linear + (after.b.linear - before.b.linear) * of_b;
-    after.b.angular = before.b.angular + (after.b.angular - before.b.angular) * of_b;
-    return after;
+LAW Mass with_true_split(Mass mass, bool condition, Parameters parameters) {
+    mass.split = choose(condition && mass.split > 1.0f, mass.split * reciprocal(parameters.inverse_relaxation), mass.split);
+    return mass;
 }
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide.
 LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Parameters parameters) {
     bool follows = is_of_round_bodies(c);
+    vec3 speeds = normal_speeds(c, impulse.center_offset, moved);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c) && !follows;
         if (none(there)) break;
-        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, moved);
-        float separation = impulse.separation[k] + parameters.h * speed;
+        float separation = impulse.separation[k] + parameters.h * speed_at(c, speeds, k);
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
     vec3 way = (moved.b.linear - moved.a.linear) * parameters.h;
@@ -159,79 +150,80 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
     impulse = after_motion(c, stretched(met, impulse, moved, parameters), moved, parameters);
     c = refresh_round_contact(c, impulse.center_offset);
+    bool first = bears_first(c, impulse, a, b);
+    NormalRows rows = normal_rows(c, impulse.center_offset, with_true_split(a, first, parameters), with_true_split(b, first, parameters));
+    vec3 speeds = normal_speeds(c, impulse.center_offset, v), press = vec3(0.0f);
+    if (!none(struck)) {
+        vec4 before = impulse.normal;
+        NormalRows met_rows = normal_rows(met, met_offset, a, b);
+        vec3 reached = normal_speeds(met, met_offset, before_motion(v, a, b, parameters.h));
+        impulse = with_restitution(met, met_rows, reached, c, impulse, rows, speeds, a, b, around);
+        for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k] - before[k], k);
+        speeds = speeds + response_to(rows, press);
+    }
+    uint sweeps = sweeps_of(c, impulse, speeds, parameters);
+    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
+        for (int k = 0; k < 4; ++k) {
+            bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
+            if (none(there)) break;
+            bool rebounds = impulse.impact[k] > 0.0f;
+            float speed = speed_at(c, speeds, k);
+            float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
+            float before = impulse.normal[k];
+            bool waits = c.restitution > 0.0f && speed < 0.0f;  // an approach is an impact of the next biased pass, or none
+            bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
+            if (none(acts)) continue;
+            vec3 response = response_at(rows, c, k);
+            float mass = reciprocal(speed_at(c, response, k));
+            acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+            float after = choose(acts, choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target)))), before);
+            impulse.normal[k] = after;
+            speeds = speeds + response * (after - before);
+            press = press + press_at(c, after - before, k);
+        }
+    }
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    if (!none(struck))
-        result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, around);
-    impulse = result.impulse;
-    v = result.pair_velocity;
-    float split_a = a.split, split_b = b.split;
-    VelocityPair before_arrival = v;
-    bool arriving = bears_first(c, impulse, a, b);
-    if (!none(arriving)) {
-        a.split = choose(arriving, true_split(split_a, parameters), split_a);
-        b.split = choose(arriving, true_split(split_b, parameters), split_b);
-    }
-    float normal = 0.0f;
-    for (int k = 0; k < 4; ++k) {
-        bool there = uint(k) < point_count(c);
-        if (none(there)) break;
-        bool rebounds = there && impulse.impact[k] > 0.0f;
-        normal = choose(rebounds, normal + impulse.normal[k], normal);
-        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float speed = dot3(c.normal, velocity_at(r, v));
-        float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-        float before = impulse.normal[k];
-        bool waits = c.restitution > 0.0f && speed < 0.0f;  // an approach is an impact of the next biased pass, or none
-        bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
-        if (none(acts)) continue;
-        JacobianRow row = jacobian_row(r, c.normal, a, b);
-        float mass = mass_along(row, a, b);
-        acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
-        float after = choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target))));
-        impulse.normal[k] = choose(acts, after, before);
-        normal = choose(acts, normal + after, normal);
-        v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
-    }
-    if (!none(arriving)) {
-        float of_a = split_a * reciprocal(a.split), of_b = split_b * reciprocal(b.split);
-        v = choose(arriving, scaled_change(before_arrival, v, of_a, of_b), v);
-        a.split = split_a;
-        b.split = split_b;
-    }
-    result.impulse = impulse;
-    result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b, false, parameters);
+    result = pressed(result, c, rows, press, a, b);
+    return solve_patch_friction(c, result, normal_impulse(impulse), a, b, false, parameters);
 }
 
-// Warm start: `v` plus what the previous substep's impulses do to the whole (not split) bodies.
-LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b) {
+// What a contact exerts on B at the centre of its patch, N s and N m s.
+struct Wrench {
+    vec3 push, moment;
+};
+LAW Wrench wrench_of(Constraint c, Impulse impulse) {
+    vec3 press = vec3(0.0f), u = tangent(c.normal);
+    for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k], k);
+    Wrench wrench;
+    wrench.push = c.normal * press.x + impulse.friction;
+    wrench.moment = (u * press.z - cross3(c.normal, u) * press.y) + (impulse.rolling + c.normal * impulse.twist);
+    return wrench;
+}
+// The velocity changes of the whole (not split) bodies. Both feel the push at the same point.
+LAW VelocityPair changes_by(Constraint c, Wrench wrench, vec3 d, Mass a, Mass b) {
+    LeverArms r = lever_arms(c, c.centre, d);
+    VelocityPair change;
+    change.a.linear = vec3(0.0f) - wrench.push * a.inverse_mass;
+    change.a.angular = vec3(0.0f) - turned_by(a, cross3(r.a, wrench.push) + wrench.moment);
+    change.b.linear = wrench.push * b.inverse_mass;
+    change.b.angular = turned_by(b, cross3(r.b, wrench.push) + wrench.moment);
+    change.a.low_y = change.a.low_z = change.b.low_y = change.b.low_z = 0.0f;
+    return change;
+}
+// The warm start of a substep: what the impulses of the last one change.
+LAW VelocityPair warm_start(Constraint c, Impulse impulse, Mass a, Mass b) {
     c = refresh_round_contact(c, impulse.center_offset);
-    float normal = impulse.normal.x;
-    vec3 moment = lever_arm(c, 0) * impulse.normal.x;
-    for (int k = 1; k < 4; ++k) {
-        bool there = uint(k) < point_count(c);
-        if (none(there)) break;
-        normal = choose(there, normal + impulse.normal[k], normal);
-        moment = choose(there, moment + lever_arm(c, k) * impulse.normal[k], moment);
-    }
-    bool acts = normal != 0.0f || has_friction(impulse);
-    if (none(acts)) return v;
-    // All normal impulses are parallel, so the sum of their moments gives the torque on each body.
-    vec3 across = impulse.center_offset * normal;
-    vec3 push = c.normal * normal + impulse.friction;
-    vec3 twist = impulse.rolling + c.normal * impulse.twist;
-    LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
-    bool on_b = is_on_b(c);
-    vec3 about_a = cross3(choose(on_b, moment + across, moment), c.normal) + cross3(r.a, impulse.friction) + twist;
-    vec3 about_b = cross3(choose(on_b, moment, moment - across), c.normal) + cross3(r.b, impulse.friction) + twist;
-    VelocityPair after = v;
-    after.a.linear = v.a.linear - push * a.inverse_mass;
-    after.a.angular = v.a.angular - turned_by(a, about_a);
-    after.b.linear = v.b.linear + push * b.inverse_mass;
-    after.b.angular = v.b.angular + turned_by(b, about_b);
-    return choose(acts, after, v);
+    return changes_by(c, wrench_of(c, impulse), impulse.center_offset, a, b);
+}
+// What a pass has changed, and what the impulses do with which the next substep begins. `c`: as the pass knew it.
+LAW VelocityPair changes_after(Constraint c, SolveResult after, Impulse next, bool warm_starts, Mass a, Mass b) {
+    c = refresh_round_contact(c, after.impulse.center_offset);
+    Wrench begins = wrench_of(c, next), wrench;
+    wrench.push = after.push + choose(warm_starts, begins.push, vec3(0.0f));
+    wrench.moment = after.moment + choose(warm_starts, begins.moment, vec3(0.0f));
+    return changes_by(c, wrench, after.impulse.center_offset, a, b);
 }
 
 // The separation, m, below which a point counts, and whether a point comes that near within the next substep; `speed`: of the
@@ -245,34 +237,29 @@ LAW bool comes_near(float separation, float speed, float near, Parameters parame
 // Whether the contact counts in mass splitting, 1 or 0: a point bears a normal impulse, or will within the next
 // substep, gravity included.
 LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
-    bool carrying = false;
-    bool open = !(impulse.slide_distance > c.slide_limit);
+    bool open = !(impulse.slide_distance > c.slide_limit), counted = false;
     c = refresh_round_contact(c, impulse.center_offset);
     float near = counted_separation(parameters);
+    vec3 speeds = normal_speeds(c, impulse.center_offset, v);
     for (int k = 0; k < 4; ++k) {
-        open = open && uint(k) < point_count(c);
-        carrying = carrying || (open && impulse.normal[k] > 0.0f);
-        open = open && !carrying;
-        if (none(open)) break;
-        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
-        carrying = carrying || (open && comes_near(impulse.separation[k], speed, near, parameters));
-        open = open && !carrying;
+        bool counts = impulse.normal[k] > 0.0f || comes_near(impulse.separation[k], speed_at(c, speeds, k), near, parameters);
+        counted = counted || (uint(k) < point_count(c) && counts);
     }
-    return choose(carrying, 1.0f, 0.0f);
+    return choose(open && counted, 1.0f, 0.0f);
 }
 
 // A contact is unloaded if all its impulses are zero. A pass changes nothing of such a contact but what after_motion() does, and
 // gives it no share in the bodies' masses, unless the contact becomes loaded in that pass, or counts for the next. These two tell
-// whether it may; in doubt that it may. They decide alone where velocities are sound (motion.h) and parameters in their ranges.
+// whether it may; they are conservative, and require finite velocities and parameters in their ranges.
 LAW bool may_load_biased(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool open = !(impulse.slide_distance > c.slide_limit), loads = false;
+    vec3 speeds = normal_speeds(c, impulse.center_offset, v);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
-        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
         float separation = impulse.separation[k];
-        bool waits = separation > 0.0f && speed + separation * parameters.inverse_h >= 0.0f;
+        bool waits = separation > 0.0f && speed_at(c, speeds, k) + separation * parameters.inverse_h >= 0.0f;
         loads = loads || (there && open && !waits);
     }
     return loads;
@@ -282,10 +269,11 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
     c = refresh_round_contact(c, impulse.center_offset);
     float near = counted_separation(parameters);
     bool open = !(impulse.slide_distance > c.slide_limit), loads = false;
+    vec3 speeds = normal_speeds(c, impulse.center_offset, v);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
-        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, v);
+        float speed = speed_at(c, speeds, k);
         float separation = impulse.separation[k];
         float target = choose(separation > 0.0f, separation * parameters.inverse_h, 0.0f);
         bool counts = open && comes_near(separation, speed, near, parameters);
@@ -295,17 +283,6 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
     return loads;
 }
 
-// Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is
-// added to them.
-LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a, Mass b) {
-    float share_a = reciprocal(a.split), share_b = reciprocal(b.split);
-    VelocityPair share = before;
-    share.a.linear = (after.a.linear - before.a.linear) * share_a;
-    share.a.angular = (after.a.angular - before.a.angular) * share_a;
-    share.b.linear = (after.b.linear - before.b.linear) * share_b;
-    share.b.angular = (after.b.angular - before.b.angular) * share_b;
-    return share;
-}
 LAW VelocityDelta velocity_delta(Velocity share, float weight, float normal_impulse) {
     VelocityDelta slot;
     slot.linear = flush_tiny(share.linear);

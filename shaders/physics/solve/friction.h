@@ -66,6 +66,7 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
         after = choose(rolls, flush_tiny(shortened(flush_tiny(from - spin * reciprocal(greatest)), most)), after);
     }
     s.impulse.rolling = after;
+    s.moment = s.moment + (after - before);
     s.pair_velocity = twisted(s.pair_velocity, after - before, a, a.split, b, b.split);
     return s;
 }
@@ -289,6 +290,8 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     s.impulse.friction = after.friction;
     s.impulse.twist = after.twist;
     vec3 change = after.friction - before.friction;
+    s.push = s.push + change;
+    s.moment = s.moment + c.normal * (after.twist - before.twist);
     s.pair_velocity = pushed(v, k.row1, dot3(k.row1.direction, change), a, a.split, b, b.split);
     s.pair_velocity = pushed(s.pair_velocity, k.row2, dot3(k.row2.direction, change), a, a.split, b, b.split);
     return s;
@@ -302,6 +305,8 @@ LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
     t.impulse.stretch = choose(condition, s.impulse.stretch, t.impulse.stretch);
     t.impulse.turn = choose(condition, s.impulse.turn, t.impulse.turn);
     t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
+    t.push = choose(condition, s.push, t.push);
+    t.moment = choose(condition, s.moment, t.moment);
     return t;
 }
 LAW bool has_friction(Impulse impulse) {

@@ -22,6 +22,7 @@ LAW VelocityPair choose(bool condition, VelocityPair v, VelocityPair w) {
 struct SolveResult {
     Impulse impulse;
     VelocityPair pair_velocity;  // of the split bodies, afterwards
+    vec3 push, moment;           // that the pass exerts on B at the centre of the patch, N s and N m s
 };
 
 struct LeverArms {
@@ -43,10 +44,6 @@ LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
 // Relative velocity (B minus A) at the point, m/s.
 LAW vec3 velocity_at(LeverArms r, VelocityPair v) {
     return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
-}
-// The same along the normal; `arm`: on the anchor body.
-LAW float normal_speed(Constraint c, vec3 arm, vec3 d, VelocityPair v) {
-    return dot3(c.normal, velocity_at(lever_arms(c, arm, d), v));
 }
 
 // A row of the contact Jacobian, with M^-1 J^T. Effective mass and velocity changes come from the same, present lever

@@ -27,7 +27,7 @@
 #define SCREE_PHYSICS_RESTITUTION_H
 
 #include "shaders/physics/solve/impact_state.h"
-#include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/normal_rows.h"
 
 LAWS_BEGIN
 
@@ -94,13 +94,13 @@ LAW JoinedPush joined_push(float pushed, float from, float to, float energy, flo
 CONSTANT float LEAST_RESPONSE = 0.0625f;
 
 // As a substep begins: what an impact of the last one has yet to return, by the velocities that it reached.
-LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ImpactContext around, Parameters parameters) {
+LAW Impulse impact_in_progress(Constraint c, Impulse impulse, vec3 speeds, ImpactContext around, Parameters parameters) {
     float gain = parameters.h * dot3(c.normal, around.acceleration);  // by gravity since
     float work = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool struck = uint(k) < point_count(c) && impulse.impact[k] > 0.0f;
         if (none(struck)) continue;
-        float reached = normal_speed(c, lever_arm(c, k), impulse.center_offset, v) - gain;
+        float reached = speed_at(c, speeds, k) - gain;
         work = choose(struck, work + 0.5f * (impulse.impact[k] * reached), work);
     }
     float before = impulse.rebound_energy;
@@ -129,7 +129,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, Im
 
 // Normal velocities at which points strike, m/s, < 0; 0 for those that do not rebound. Measured before any point is
 // solved, because solving one turns the bodies at the others. The surface is met after a part of the substep.
-LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, ImpactContext around,
+LAW vec4 impact_velocities(Constraint c, Impulse impulse, vec3 speeds, NormalRows rows, ImpactContext around,
                            Parameters parameters) {
     vec4 found = vec4(0.0f);
     float gain = parameters.h * dot3(c.normal, around.acceleration);
@@ -137,10 +137,10 @@ LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c);
         if (none(there)) continue;
-        JacobianRow row = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
-        float speed = speed_along(row, v);
+        float speed = speed_at(c, speeds, k);
         float way = parameters.h * speed;
-        bool strikes = impulse.normal[k] <= -IMPACT_DISTANCE * mass_along(row, a, b) * speed;
+        float mass = reciprocal(speed_at(c, response_at(rows, c, k), k));
+        bool strikes = impulse.normal[k] <= -IMPACT_DISTANCE * mass * speed;
         bool meets = there && strikes && speed < -slowest && impulse.separation[k] + way < 0.0f;
         if (none(meets)) continue;
         float part = choose(impulse.separation[k] > 0.0f, -impulse.separation[k] * reciprocal(way), 0.0f);
@@ -178,8 +178,8 @@ CONSTANT float MOST_STRUCK_MASS = 4.0f;
 // p does the work p (v + u) / 2 from velocity v to u; u is known when all contacts have been solved (with_restitution). With
 // the rebound w that a single point would have, and the mass m on which it acts, m (w^2 - e^2 v^2) / 2 is what gravity adds
 // in the part of the substep that is flight: to the body, so that several impacts share it.
-LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4 normal_before, VelocityPair before,
-                              VelocityPair after, Mass a, Mass b, ImpactContext around, Parameters parameters) {
+LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4 normal_before, vec3 before, vec3 after,
+                              NormalRows rows, Mass a, Mass b, ImpactContext around, Parameters parameters) {
     float e2 = c.restitution * c.restitution;
     float pull = dot3(c.normal, around.acceleration);
     float whole = larger(a.split, b.split);
@@ -197,13 +197,12 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
         float pressed = impulse.normal[k] - normal_before[k];
         bool struck = (striking[k] < 0.0f || impulse.impact[k] > 0.0f) && pressed > 0.0f;
         if (none(struck)) continue;
-        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float reached = dot3(c.normal, velocity_at(r, after)), speed = dot3(c.normal, velocity_at(r, before));
+        float reached = speed_at(c, after, k), speed = speed_at(c, before, k);
         float strike = choose(striking[k] < 0.0f, striking[k], speed);
         // Clamped: a speculative impulse may change almost nothing, and then rounding decides.
         float rise = larger(larger(reached - speed, 1.0e-4f * abs(speed)), 1.0e-9f);
         float wanted = plain_rebound(c, strike, pull, parameters);
-        float own_mass = mass_along(jacobian_row(r, c.normal, a, b), a, b);
+        float own_mass = reciprocal(speed_at(c, response_at(rows, c, k), k));
         float mass = smaller(pressed * reciprocal(rise), MOST_STRUCK_MASS * own_mass);
         float flight = whole * (mass * (wanted * wanted - e2 * (speed * speed)));
         flights = choose(struck, flights + 0.5f * flight, flights);
@@ -224,29 +223,15 @@ struct ImpactMode {
     float speed;                   // of the pair along the mode, m/s
     float inverse_effective_mass;  // of the split pair, 1/kg
 };
-LAW ImpactMode impact_mode(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b) {
+LAW ImpactMode impact_mode(Constraint c, Impulse impulse, vec3 speeds, NormalRows rows) {
     ImpactMode mode;
     mode.share = impulse.impact;
     float sum = (mode.share.x + mode.share.y) + (mode.share.z + mode.share.w);
     mode.share = mode.share * reciprocal(larger(sum, 1.0e-18f));
-    mode.speed = 0.0f;
-    VelocityPair response = v;
-    response.a.linear = response.a.angular = response.b.linear = response.b.angular = vec3(0.0f);
-    for (int k = 0; k < 4; ++k) {
-        bool struck = mode.share[k] > 0.0f;
-        if (none(struck)) continue;
-        JacobianRow row = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
-        mode.speed = choose(struck, mode.speed + mode.share[k] * speed_along(row, v), mode.speed);
-        response = choose(struck, pushed(response, row, mode.share[k], a, a.split, b, b.split), response);
-    }
-    mode.inverse_effective_mass = 1.0e-30f;
-    for (int k = 0; k < 4; ++k) {
-        bool struck = mode.share[k] > 0.0f;
-        if (none(struck)) continue;
-        float speed = normal_speed(c, lever_arm(c, k), impulse.center_offset, response);
-        mode.inverse_effective_mass =
-            choose(struck, mode.inverse_effective_mass + mode.share[k] * speed, mode.inverse_effective_mass);
-    }
+    vec3 press = vec3(0.0f);
+    for (int k = 0; k < 4; ++k) press = press + press_at(c, mode.share[k], k);
+    mode.speed = dot3(press, speeds);
+    mode.inverse_effective_mass = larger(dot3(press, response_to(rows, press)), 1.0e-30f);
     return mode;
 }
 
@@ -295,25 +280,21 @@ LAW VelocityPair before_motion(VelocityPair v, Mass a, Mass b, float h) {
     return v;
 }
 
-// The relax pass of the struck points: the impulse along the mode that does the work which is left. `met`, `offset` and
-// `reached` are the constraint, the offset of the centres and the velocities of the biased pass, which did its work along that
+// The relax pass of the struck points: the impulse along the mode that does the work which is left. `met`, `met_rows` and
+// `reached` are the constraint, the rows and the speeds of the biased pass, which did its work along that
 // normal: the bodies have moved since, and normal, lever arms and angular velocities with them (with one set of rows for both,
 // two balls off centre gained up to 20% of their energy at 150 m/s; with one set of velocities, two boxes a quarter at 50 m/s).
-LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reached, Constraint c, Impulse impulse, VelocityPair v,
-                                 Mass a, Mass b, ImpactContext around) {
+LAW Impulse with_restitution(Constraint met, NormalRows met_rows, vec3 reached, Constraint c, Impulse impulse, NormalRows rows,
+                             vec3 speeds, Mass a, Mass b, ImpactContext around) {
     float e2 = c.restitution * c.restitution;
-    Impulse there = impulse;
-    there.center_offset = offset;
     float pressed = 0.0f, work = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
-        if (none(struck)) continue;
-        float speed = normal_speed(met, lever_arm(met, k), offset, reached);
         pressed = choose(struck, pressed + impulse.normal[k], pressed);
-        work = choose(struck, work + 0.5f * (impulse.normal[k] * speed), work);
+        work = choose(struck, work + 0.5f * (impulse.normal[k] * speed_at(met, reached, k)), work);
     }
     // An approach that is left, or a speed of the push-out, is energy of the compression as well.
-    ImpactMode before = impact_mode(met, there, reached, a, b);
+    ImpactMode before = impact_mode(met, impulse, reached, met_rows);
     bool joined = around.on_joints, answered = joined && impulse.impact_energy > 0.0f;
     if (!none(answered)) before = of_assembly(before, impulse.flight_energy, answered);
     float rest = 0.5f * ((before.speed * before.speed) * reciprocal(before.inverse_effective_mass));
@@ -322,7 +303,7 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     float stored = impulse.rebound_energy - around.debt + flight - e2 * work;
     float energy = stored - choose(compressed, (1.0f - e2) * rest, 0.0f);
 
-    ImpactMode mode = impact_mode(c, impulse, v, a, b);
+    ImpactMode mode = impact_mode(c, impulse, speeds, rows);
     if (!none(answered)) mode = of_assembly(mode, impulse.flight_energy, answered);
     float squared = mode.speed * mode.speed + 2.0f * (energy * mode.inverse_effective_mass);
     float push = (square_root(positive(squared)) - mode.speed) * reciprocal(mode.inverse_effective_mass);
@@ -330,23 +311,10 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     float done = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
-        if (none(struck)) continue;
-        JacobianRow row = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
         float now = positive(flush_tiny(normal[k] + push * mode.share[k]));
         float change = now - normal[k];
-        done = choose(struck, done + 0.5f * (change * speed_along(row, v)), done);
+        done = choose(struck, done + 0.5f * (change * speed_at(c, speeds, k)), done);
         normal[k] = choose(struck, now, normal[k]);
-    }
-    SolveResult result;
-    result.impulse = impulse;
-    result.pair_velocity = v;
-    for (int k = 0; k < 4; ++k) {
-        bool struck = impulse.impact[k] > 0.0f;
-        if (none(struck)) continue;
-        JacobianRow row = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
-        float change = normal[k] - impulse.normal[k];
-        result.pair_velocity =
-            choose(struck, pushed(result.pair_velocity, row, change, a, a.split, b, b.split), result.pair_velocity);
     }
     // Where all else stays as it is, the work is done at once.
     bool passes_on = around.on_joints || larger(a.split, b.split) > 1.001f;
@@ -354,15 +322,15 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
         float change = flush_tiny(normal[k] - impulse.normal[k]);
-        result.impulse.impact[k] = choose(struck && lasts, change, result.impulse.impact[k]);
-        result.impulse.normal[k] = choose(struck, normal[k], result.impulse.normal[k]);
+        impulse.impact[k] = choose(struck && lasts, change, impulse.impact[k]);
+        impulse.normal[k] = choose(struck, normal[k], impulse.normal[k]);
     }
     float to_return = choose(joined, stored + e2 * rest, energy);
-    result.impulse.impact_energy = choose(lasts, larger(impulse.impact_energy, flush_least(to_return)), 0.0f);
-    result.impulse.rebound_energy = choose(lasts, flush_least(choose(joined, stored, energy - done)), 0.0f);
+    impulse.impact_energy = choose(lasts, larger(impulse.impact_energy, flush_least(to_return)), 0.0f);
+    impulse.rebound_energy = choose(lasts, flush_least(choose(joined, stored, energy - done)), 0.0f);
     float from = choose(mode.speed == 0.0f, -1.0e-9f, mode.speed);
-    result.impulse.flight_energy = choose(lasts && joined, from, 0.0f);
-    return result;
+    impulse.flight_energy = choose(lasts && joined, from, 0.0f);
+    return impulse;
 }
 
 // The split mass in the relax pass: a struck body is split among its impacts by their weights.

@@ -24,23 +24,18 @@ void drive_body(uint i, uint left) {
 }
 
 // Applies warm starts (with the previous relax pass), forces, damping and grab springs, and updates the split state.
-void begin_body(uint i, bool first) {
+void begin_body(uint i) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
     if (body.motion != MOTION_DYNAMIC || is_foreign(body)) return;
     Gathered sum = gather(i);
-    BodyMass mass = READ(masses, i);
     Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
-            velocity = pulled(velocity, READ(poses, i), whole_mass(mass), PARAMETERS.grips[k], PARAMETERS);
+            velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    uint age = COUNTED.steps;
-    if (COPIES && first) age = age_of_copy(age, READ_WORD(births, copy_of(i)));
-    if (first) mass.split_state = update_hysteresis(mass.split_state, sum.weight, age);
-    mass.split_state = split_state_after(mass.split_state, sum.weight, sum.normal_impulse);
-    masses.at[i].split_state = mass.split_state;
+    masses.at[i].split_state = pack_split_state(sum.weight, sum.normal_impulse);
 }
 
 // Applies the biased pass and integrates the pose by a substep.

@@ -1,0 +1,83 @@
+// The normal rows of a contact's points, as three scalars.
+//
+// The points of a contact share the normal n and lie in one plane. A point's height over that plane gives an impulse along n no
+// moment, so along n the bodies approach at the point (u, v), measured from the centre of the patch, with the speed
+// s0 + u s1 + v s2: s0 at the centre, s1 and s2 by their relative rotation. Impulses p_k at points (u_k, v_k) act as
+// (sum p_k, sum p_k u_k, sum p_k v_k) on these three, through one symmetric 3 x 3 matrix: the inverse effective mass of the
+// contact. So the points are solved in scalars, and the bodies' velocities are changed once for all of them.
+#ifndef SCREE_PHYSICS_NORMAL_ROWS_H
+#define SCREE_PHYSICS_NORMAL_ROWS_H
+
+#include "shaders/physics/solve/jacobian.h"
+
+LAWS_BEGIN
+
+// (s0, s1, s2): m/s, 1/s, 1/s. `d`: centre of B minus centre of A, m.
+LAW vec3 normal_speeds(Constraint c, vec3 d, VelocityPair v) {
+    LeverArms r = lever_arms(c, c.centre, d);
+    vec3 u = tangent(c.normal), spin = v.b.angular - v.a.angular;
+    float turning = dot3(cross3(r.b, c.normal), v.b.angular) - dot3(cross3(r.a, c.normal), v.a.angular);
+    return vec3(dot3(c.normal, v.b.linear - v.a.linear) + turning, -dot3(cross3(c.normal, u), spin), dot3(u, spin));
+}
+// At point k, m/s.
+LAW float speed_at(Constraint c, vec3 speeds, int k) {
+    return speeds.x + (c.points_u[k] * speeds.y + c.points_v[k] * speeds.z);
+}
+// (p, p u, p v) of an impulse at point k, N s and N m s.
+LAW vec3 press_at(Constraint c, float impulse, int k) {
+    return vec3(impulse, impulse * c.points_u[k], impulse * c.points_v[k]);
+}
+
+struct NormalRows {
+    vec3 u, v;                    // tangents: the axes of the plane
+    vec3 response_a, response_b;  // I^-1 (r x n) of either whole body
+    vec3 at_centre, along_u, along_v;  // rows of the inverse effective mass of the split bodies
+};
+LAW NormalRows normal_rows(Constraint c, vec3 d, Mass a, Mass b) {
+    LeverArms r = lever_arms(c, c.centre, d);
+    vec3 arm_a = cross3(r.a, c.normal), arm_b = cross3(r.b, c.normal);
+    NormalRows rows;
+    rows.u = tangent(c.normal);
+    rows.v = cross3(c.normal, rows.u);
+    rows.response_a = turned_by(a, arm_a);
+    rows.response_b = turned_by(b, arm_b);
+    float k00 = (a.inverse_mass + dot3(arm_a, rows.response_a)) * a.split + (b.inverse_mass + dot3(arm_b, rows.response_b)) * b.split;
+    vec3 turning = rows.response_a * a.split + rows.response_b * b.split;
+    Mass both = a;
+    both.xx = a.xx * a.split + b.xx * b.split;
+    both.xy = a.xy * a.split + b.xy * b.split;
+    both.xz = a.xz * a.split + b.xz * b.split;
+    both.yy = a.yy * a.split + b.yy * b.split;
+    both.yz = a.yz * a.split + b.yz * b.split;
+    both.zz = a.zz * a.split + b.zz * b.split;
+    vec3 about_u = turned_by(both, rows.u), about_v = turned_by(both, rows.v);
+    float k01 = -dot3(rows.v, turning), k02 = dot3(rows.u, turning), k12 = -dot3(rows.u, about_v);
+    rows.at_centre = vec3(k00, k01, k02);
+    rows.along_u = vec3(k01, dot3(rows.v, about_v), k12);
+    rows.along_v = vec3(k02, k12, dot3(rows.u, about_u));
+    return rows;
+}
+// What an impulse of 1 at point k changes of the three speeds.
+LAW vec3 response_at(NormalRows rows, Constraint c, int k) {
+    return rows.at_centre + (rows.along_u * c.points_u[k] + rows.along_v * c.points_v[k]);
+}
+LAW vec3 response_to(NormalRows rows, vec3 press) {
+    return rows.at_centre * press.x + (rows.along_u * press.y + rows.along_v * press.z);
+}
+// The velocities of the split bodies, and what was exerted, after impulses along the normal. `press`: their sum by press_at().
+LAW SolveResult pressed(SolveResult s, Constraint c, NormalRows rows, vec3 press, Mass a, Mass b) {
+    vec3 moment = rows.u * press.z - rows.v * press.y;
+    VelocityPair v = s.pair_velocity;
+    v.a.linear = v.a.linear - c.normal * (press.x * a.inverse_mass * a.split);
+    v.a.angular = v.a.angular - (rows.response_a * press.x + turned_by(a, moment)) * a.split;
+    v.b.linear = v.b.linear + c.normal * (press.x * b.inverse_mass * b.split);
+    v.b.angular = v.b.angular + (rows.response_b * press.x + turned_by(b, moment)) * b.split;
+    s.pair_velocity = v;
+    s.push = c.normal * press.x;
+    s.moment = moment;
+    return s;
+}
+
+LAWS_END
+
+#endif
