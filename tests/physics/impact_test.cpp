@@ -236,7 +236,7 @@ TEST_CASE("ways pass each other where their spheres stay apart all along") {
             const auto at = [&](const Way& way) { return way.start + way.way * std::min(t, way.until); };
             const float distance = length3(at(ways[1]) - at(ways[0]));
             least = std::min(least, distance);
-            if (distance < ways[0].reach + ways[1].reach + touch) {
+            if (t <= std::max(ways[0].until, ways[1].until) && distance < ways[0].reach + ways[1].reach + touch) {
                 CAPTURE(i, t, near.first, near.last);
                 CHECK(near.first <= t);
                 CHECK(t <= near.last);
@@ -282,7 +282,7 @@ TEST_CASE("an impact is found as in the whole step where spheres touch, and one 
         const vec3 end_b = b.shape == SHAPE_PLANE ? starts[1].position : ends[1].position;
         const Nearing near = nearing_of(way_of(reach_of(a), starts[0].position, ends[0].position, 1),
                                         way_of(reach_of(b), starts[1].position, end_b, 1), touch);
-        const Limits limits = limits_of(a, b, NO_CONTACT, parameters());
+        const physics::Limits limits = limits_of(a, b, NO_CONTACT, parameters());
         const float whole = meet(a, of_a, b, of_b).fraction;
         const auto within = [&](float bound) {
             return passes(near) ? NO_HIT : impact_of(a, of_a, b, of_b, near, bound, limits, false, Hulls{}).fraction;
