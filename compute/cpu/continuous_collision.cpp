@@ -134,13 +134,19 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
                                               state.properties[bodies[1 - side]], state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
         const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
-        if (physics::ways_pass(way(state, rows[0], stops[0]), way(state, rows[1], stops[1]),
-                               physics::touch_of(ta, tb, state.fixed())))
-            return;
+        const physics::Nearing near = physics::nearing_of(way(state, rows[0], stops[0]), way(state, rows[1], stops[1]),
+                                                          physics::touch_of(ta, tb, state.fixed()));
+        float bound = 0;  // what this pair may lower
+        for (int side = 0; side < 2; ++side) {
+            const std::atomic_ref found(state.bounds[bodies[side]].sweep.stops[next]);
+            if (clamps[side])
+                bound = std::max(bound, std::min(stops[side], physics::uintBitsToFloat(found.load(std::memory_order_relaxed))));
+        }
+        if (physics::passes(near) || near.first >= bound) return;
         const auto joined = [&](int side) { return state.properties[bodies[side]].joints != physics::NONE; };
         const bool only_joined = (!clamps[0] || joined(0)) && (!clamps[1] || joined(1));
         const physics::Impact impact = physics::impact_of(
-            ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]),
+            ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]), near, bound,
             physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1], only_joined),
                                state.fixed()),
             false, state.hull_table());

@@ -30,10 +30,13 @@ void main() {
     if (!clamps_a && !clamps_b) return;
     float reach_a = row_a == a ? reach_of(ta) : reach_of(READ(properties, row_a)) + length3(part_in(row_a).position);
     float reach_b = row_b == b ? reach_of(tb) : reach_of(READ(properties, row_b)) + length3(part_in(row_b).position);
-    if (ways_pass(way_of(reach_a, bounds.at[a].sweep.position, READ(poses, a).position, stop_a),
-                  way_of(reach_b, bounds.at[b].sweep.position, READ(poses, b).position, stop_b),
-                  touch_of(READ(properties, row_a), READ(properties, row_b), PARAMETERS)))
-        return;
+    Nearing near = nearing_of(way_of(reach_a, bounds.at[a].sweep.position, READ(poses, a).position, stop_a),
+                              way_of(reach_b, bounds.at[b].sweep.position, READ(poses, b).position, stop_b),
+                              touch_of(READ(properties, row_a), READ(properties, row_b), PARAMETERS));
+    // What this pair may lower.
+    float bound = larger(clamps_a ? smaller(stop_a, uintBitsToFloat(bounds.at[a].sweep.stops[next])) : 0.0f,
+                         clamps_b ? smaller(stop_b, uintBitsToFloat(bounds.at[b].sweep.stops[next])) : 0.0f);
+    if (passes(near) || near.first >= bound) return;
     bool joined = (!clamps_a || ta.joints != NONE) && (!clamps_b || tb.joints != NONE);
     MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);
     MotionPath cb = path_of(tb, bounds.at[b].sweep.position, bounds.at[b].sweep.orientation, READ(poses, b), stop_b);
@@ -45,9 +48,8 @@ void main() {
         tb = READ(properties, row_b);
         cb = path_of_part(tb, part_in(row_b), cb);
     }
-    float fraction = impact_of(ta, ca, tb, cb, limits_of(ta, tb, contact_state_of(points, stop_a, stop_b, joined), PARAMETERS),
-                               false, Hulls(0u))
-                         .fraction;
+    Limits limits = limits_of(ta, tb, contact_state_of(points, stop_a, stop_b, joined), PARAMETERS);
+    float fraction = impact_of(ta, ca, tb, cb, near, bound, limits, false, Hulls(0u)).fraction;
     if (clamps_a) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
     if (clamps_b) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
 }

@@ -38,8 +38,9 @@ Parameters parameters() {
     p.speculative = 10 * touch;
     return p;
 }
+constexpr Nearing whole_step{0, 1};
 Impact meet(const BodyProperties& a, const MotionPath& course_a, const BodyProperties& b, const MotionPath& course_b) {
-    return impact_of(a, course_a, b, course_b, limits_of(a, b, NO_CONTACT, parameters()), false, Hulls{});
+    return impact_of(a, course_a, b, course_b, whole_step, NO_HIT, limits_of(a, b, NO_CONTACT, parameters()), false, Hulls{});
 }
 
 const BodyProperties ball = properties_of(SHAPE_SPHERE, vec3(0.1f, 0, 0));
@@ -160,7 +161,8 @@ TEST_CASE("what was stopped is not stopped at the same place in the next step") 
         };
         CAPTURE(i, first);
         for (const uint hold : {NO_CONTACT, IN_CONTACT, CONTACT_LOST})
-            REQUIRE(impact_of(a, on(a, ca), b, on(b, cb), limits_of(a, b, hold, parameters()), false, Hulls{}).fraction > 0);
+            REQUIRE(impact_of(a, on(a, ca), b, on(b, cb), whole_step, NO_HIT, limits_of(a, b, hold, parameters()), false, Hulls{})
+                        .fraction > 0);
     }
     REQUIRE(met > 300);
 }
@@ -227,19 +229,30 @@ TEST_CASE("ways pass each other where their spheres stay apart all along") {
         Way ways[2];
         for (int k = 0; k < 2; ++k)
             ways[k] = way_of(0.05f + 0.2f * std::abs(noise()), noise.vector(), noise.vector() * 2.0f, until[k]);
+        const Nearing near = nearing_of(ways[0], ways[1], touch);
         float least = 1e30f;
         for (int step = 0; step <= 2000; ++step) {
             const float t = static_cast<float>(step) / 2000;
             const auto at = [&](const Way& way) { return way.start + way.way * std::min(t, way.until); };
-            least = std::min(least, length3(at(ways[1]) - at(ways[0])));
+            const float distance = length3(at(ways[1]) - at(ways[0]));
+            least = std::min(least, distance);
+            if (t <= std::max(ways[0].until, ways[1].until) && distance < ways[0].reach + ways[1].reach + touch) {
+                CAPTURE(i, t, near.first, near.last);
+                CHECK(near.first <= t);
+                CHECK(t <= near.last);
+            }
         }
         const float room = ways[0].reach + ways[1].reach;
         CAPTURE(i, least, room);
         if (least > 1.002f * room + 2 * touch + 0.003f) {
-            CHECK(ways_pass(ways[0], ways[1], touch));
+            CHECK(passes(near));
             ++passing;
         } else if (least < room + touch) {
-            CHECK_FALSE(ways_pass(ways[0], ways[1], touch));
+            CHECK_FALSE(passes(near));
+            for (const float t : {near.first, near.last}) {  // not searched where they are far
+                const auto at = [&](const Way& way) { return way.start + way.way * std::min(t, way.until); };
+                CHECK(length3(at(ways[1]) - at(ways[0])) < 1.002f * room + 2 * touch);
+            }
             ++meeting;
         }
     }
@@ -250,5 +263,52 @@ TEST_CASE("ways pass each other where their spheres stay apart all along") {
 TEST_CASE("nothing passes a plane by its size") {
     const Way down = way_of(reach_of(ball), vec3(5, 3, 0), vec3(5, -3, 0), 1),
               lies = way_of(reach_of(ground), vec3(0), vec3(0), 1);
-    CHECK_FALSE(ways_pass(down, lies, touch));
+    CHECK_FALSE(passes(nearing_of(down, lies, touch)));
+    CHECK_FALSE(passes(nearing_of(lies, lies, touch)));
+}
+
+TEST_CASE("an impact is found as in the whole step where spheres touch, and one at the bound or later is not") {
+    tests::Noise noise(9);
+    const BodyProperties kinds[] = {ball, properties_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)),
+                                    properties_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f)), ground};
+    const auto turned = [&] { return glm::normalize(vec4(noise(), noise(), noise(), noise() + 0.01f)); };
+    int found = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const BodyProperties &a = kinds[i % 3], &b = kinds[i / 3 % 4];
+        const Pose starts[2] = {pose_at(noise.vector(), turned()), pose_at(noise.vector(), turned())};
+        const Pose ends[2] = {pose_at(noise.vector() * 2.0f, turned()), pose_at(noise.vector() * 2.0f, turned())};
+        const MotionPath of_a = from_to(a, starts[0], ends[0]),
+                         of_b = b.shape == SHAPE_PLANE ? still(b, starts[1]) : from_to(b, starts[1], ends[1]);
+        const vec3 end_b = b.shape == SHAPE_PLANE ? starts[1].position : ends[1].position;
+        const Nearing near = nearing_of(way_of(reach_of(a), starts[0].position, ends[0].position, 1),
+                                        way_of(reach_of(b), starts[1].position, end_b, 1), touch);
+        const physics::Limits limits = limits_of(a, b, NO_CONTACT, parameters());
+        const float whole = meet(a, of_a, b, of_b).fraction;
+        const auto within = [&](float bound) {
+            return passes(near) ? NO_HIT : impact_of(a, of_a, b, of_b, near, bound, limits, false, Hulls{}).fraction;
+        };
+        CAPTURE(i, whole, near.first, near.last);
+        if (whole > 1) {
+            CHECK(within(NO_HIT) > 1);
+            continue;
+        }
+        ++found;
+        CHECK(within(NO_HIT) == Approx(whole).margin(0.004));
+        CHECK(within(1) == within(NO_HIT));
+        CHECK(within(0.9f * whole) >= 0.9f * whole);
+    }
+    CHECK(found > 300);
+}
+
+TEST_CASE("turning closes a gap by its arc, and by no more than the bounding sphere") {
+    const BodyProperties rod = properties_of(SHAPE_BOX, vec3(1, 0.05f, 0.05f));
+    Parameters p = parameters();
+    p.dt = 0.01f;
+    const float reach = bounding_radius(rod.shape, rod.size);
+    const auto closed = [&](const BodyProperties& body, float spin) {
+        return closed_by_turning(body, reach, {vec3(0), 0, vec3(0, spin, 0), 0}, p);
+    };
+    CHECK(closed(rod, 10) == Approx(0.1f * reach));
+    CHECK(closed(rod, 1000) == reach);
+    CHECK(closed(ball, 1000) == 0);
 }

@@ -120,6 +120,54 @@ LAW Limits limits_of(BodyProperties a, BodyProperties b, uint hold, Parameters p
     return limits;
 }
 
+// Bounding spheres of two bodies on their ways, of which each ends where the body is clamped.
+struct Way {
+    vec3 start;   // m
+    float reach;  // m
+    vec3 way;     // m
+    float until;  // fraction of the step at which it ends
+};
+LAW Way way_of(float reach, vec3 start, vec3 end, float until) {
+    Way way;
+    way.start = start;
+    way.reach = reach;
+    way.way = end - start;
+    way.until = smaller(until, 1.0f);
+    return way;
+}
+// When two points that are `apart` and move on by `way` are within `room` of each other, in parts of that way: none where it ends
+// before it begins.
+struct Nearing {
+    float first;
+    float last;
+};
+LAW Nearing nearing_on(vec3 apart, vec3 way, float room) {
+    float per_length = inverse_square_root(larger(dot3(way, way), 1.0e-20f));
+    float part = -dot3(apart, way) * (per_length * per_length);
+    vec3 nearest = apart + way * part;
+    float left = room * room - dot3(nearest, nearest), half_way = square_root(positive(left)) * per_length;
+    Nearing near;
+    near.first = larger(part - half_way, 0.0f);
+    near.last = left < 0.0f ? -1.0f : smaller(part + half_way, 1.0f);
+    return near;
+}
+// The fractions of the step between which the spheres touch. Only there a time of impact is searched for: most of a cloud that
+// flies passes, and what spins is far from the others for most of the step.
+LAW Nearing nearing_of(Way a, Way b, float touch) {
+    float room = 1.001f * (a.reach + b.reach) + 2.0f * touch, both = smaller(a.until, b.until);
+    float rest = larger(a.until, b.until) - both;
+    vec3 apart = b.start - a.start, together = (b.way - a.way) * both;
+    vec3 alone = b.way * (b.until - both) - a.way * (a.until - both);
+    Nearing near = nearing_on(apart, together, room), after = nearing_on(apart + together, alone, room);
+    bool meets = near.first <= near.last, meets_after = after.first <= after.last;
+    near.first = meets ? near.first * both : both + after.first * rest;
+    near.last = meets_after ? both + after.last * rest : (meets ? near.last * both : -1.0f);
+    return near;
+}
+LAW bool passes(Nearing near) {
+    return near.first > near.last;
+}
+
 struct Impact {
     vec3 normal;     // unit, world, from A to B
     float fraction;  // of the step; NO_HIT: none
@@ -127,23 +175,25 @@ struct Impact {
 // Time of impact: as the bodies come into contact, if they then overlap. Bodies in contact from the start are clamped
 // only where one is driven into the other, and so are those clamped in the previous step as they came into contact:
 // clamped there again and again, a hull tipping fast over its edge hung in the air for seconds. Out of rounds, they are
-// clamped as far as they are known to be free. `until_touch`: as they come into contact, whatever follows.
-LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionPath b, Limits limits, bool until_touch,
-                     Hulls hulls) {
+// clamped as far as they are known to be free. `near`: where their spheres touch; `bound`: an impact there or later does not
+// matter; `until_touch`: as they come into contact, whatever follows.
+LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionPath b, Nearing near, float bound, Limits limits,
+                     bool until_touch, Hulls hulls) {
     Impact impact;
     impact.normal = vec3(0.0f);
     impact.fraction = NO_HIT;
-    float t = 0.0f;
+    float t = near.first, ends = smaller(larger(a.until, b.until), near.last);
     float aim = limits.touch;
     bool met = false;
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
+        if (impact.fraction > 1.0f && t >= bound) return impact;
         bool both = t < a.until && t < b.until;
-        float leg = both ? smaller(a.until, b.until) : larger(a.until, b.until);
+        float leg = both ? smaller(smaller(a.until, b.until), ends) : ends;
         // A distance that cannot close in this leg need not be exact.
         float fastest = a.most + b.most + length3(both ? b.way - a.way : (t < a.until ? a.way : b.way));
         float enough = aim + (limits.tolerance + limits.slop) + positive(leg - t) * fastest;
         DistanceBound gap = distance_between_shapes(ta, pose_along_path(a, t), tb, pose_along_path(b, t), enough, hulls);
-        bool touched = k == 0u && gap.distance <= aim + limits.tolerance;
+        bool touched = t == 0.0f && gap.distance <= aim + limits.tolerance;
         if (touched) {
             met = true;
             aim = smaller(-limits.depth, gap.distance - limits.slop);
@@ -170,7 +220,7 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
         if (t < b.until) closing = closing - dot3(gap.normal, b.way);
         float room = gap.distance - aim;
         if (t >= leg || closing * (leg - t) <= room) {
-            if (t >= leg || leg >= larger(a.until, b.until)) {
+            if (t >= leg || leg >= ends) {
                 impact.fraction = NO_HIT;
                 return impact;
             }
@@ -184,28 +234,6 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
     return impact;
 }
 
-// Whether the bounding spheres of two bodies stay apart on their ways, `reach` from their centres, of which each ends where the
-// body is clamped: so do most of a cloud that flies, at a hundredth of the cost of a time of impact.
-struct Way {
-    vec3 start;   // m
-    float reach;  // m
-    vec3 way;     // m
-    float until;  // fraction of the step at which it ends
-};
-LAW Way way_of(float reach, vec3 start, vec3 end, float until) {
-    Way way;
-    way.start = start;
-    way.reach = reach;
-    way.way = end - start;
-    way.until = smaller(until, 1.0f);
-    return way;
-}
-LAW bool ways_pass(Way a, Way b, float touch) {
-    float room = 1.001f * (a.reach + b.reach) + 2.0f * touch, both = smaller(a.until, b.until);
-    vec3 apart = b.start - a.start, together = (b.way - a.way) * both;
-    vec3 alone = b.way * (b.until - both) - a.way * (a.until - both);
-    return nearest_squared(apart, together) > room * room && nearest_squared(apart + together, alone) > room * room;
-}
 // How far from the centre of its body a row reaches, m; a plane everywhere.
 LAW float reach_of(BodyProperties properties) {
     return choose(properties.shape == SHAPE_PLANE, 1.0e15f, bounding_radius(properties));
@@ -242,12 +270,12 @@ LAW float same_normal(bool driven) {
 LAW bool will_meet(vec3 normal, float cosine, BodyProperties ta, Pose a, Velocity va, BodyForces la, BodyProperties tb, Pose b,
                    Velocity vb, BodyForces lb, Parameters parameters, Hulls hulls) {
     Pose end_a = predict_pose(a, va, la, parameters), end_b = predict_pose(b, vb, lb, parameters);
-    if (ways_pass(way_of(reach_of(ta), a.position, end_a.position, 1.0f), way_of(reach_of(tb), b.position, end_b.position, 1.0f),
-                  touch_of(ta, tb, parameters)))
-        return false;
+    Nearing near = nearing_of(way_of(reach_of(ta), a.position, end_a.position, 1.0f),
+                              way_of(reach_of(tb), b.position, end_b.position, 1.0f), touch_of(ta, tb, parameters));
+    if (passes(near)) return false;
     MotionPath ca = path_of(ta, a.position, a.orientation, end_a, 1.0f);
     MotionPath cb = path_of(tb, b.position, b.orientation, end_b, 1.0f);
-    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, NO_CONTACT, parameters), true, hulls);
+    Impact impact = impact_of(ta, ca, tb, cb, near, NO_HIT, limits_of(ta, tb, NO_CONTACT, parameters), true, hulls);
     return impact.fraction <= 1.0f && dot3(impact.normal, normal) > cosine;
 }
 
