@@ -49,11 +49,11 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     return c;
 }
 
-// What falls flat upon several points is solved in sweeps if it approaches faster than what gravity adds to a speed in so many
-// substeps: a single sweep would leave it with a spin.
+// Several points that approach faster than what gravity adds to a speed in so many substeps are solved in sweeps: a single sweep
+// would leave what falls flat with a spin.
 CONSTANT float ARRIVAL = 4.0f;
-LAW uint sweeps_of(Constraint c, Impulse impulse, vec3 speeds, Parameters parameters) {
-    bool arrives = point_count(c) > 1u && normal_impulse(impulse) == 0.0f && speeds.x < -ARRIVAL * fall_speed(parameters);
+LAW uint sweeps_of(Constraint c, vec3 speeds, Parameters parameters) {
+    bool arrives = point_count(c) > 1u && speeds.x < -ARRIVAL * fall_speed(parameters);
     return choose(arrives, uint(IMPACT_SWEEPS), 1u);
 }
 
@@ -79,7 +79,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     bool strikes = is_any(striking);
     vec4 normal_before = impulse.normal;
     vec3 press = vec3(0.0f);
-    uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), sweeps_of(c, impulse, speeds, parameters));
+    uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), sweeps_of(c, speeds, parameters));
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         for (int k = 0; k < 4; ++k) {
             bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
@@ -165,7 +165,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k] - before[k], k);
         speeds = speeds + response_to(rows, press);
     }
-    uint sweeps = sweeps_of(c, impulse, speeds, parameters);
+    uint sweeps = sweeps_of(c, speeds, parameters);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         for (int k = 0; k < 4; ++k) {
             bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
