@@ -73,7 +73,7 @@ LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockB
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
-    outcome.weight = is_active(c, outcome.impulse, after.pair_velocity, parameters);
+    outcome.weight = counts_next(c, impulse, outcome.impulse, after.pair_velocity, bodies.a, bodies.b, parameters);
     outcome.passed_on = outcome.impulse.normal_sum;
     return outcome;
 }

@@ -110,17 +110,6 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal_impulse(impulse), a, b, true, parameters);
 }
 
-// Whether a contact without restitution that has borne nothing yet meets bodies that are split among several. In the biased pass
-// over-relaxed shares of the mass overshoot, and the relax pass takes that back. What overshoots in the relax pass is gone, so
-// such a contact answers there with its true share.
-LAW bool bears_first(Constraint c, Impulse impulse, Mass a, Mass b) {
-    return larger(a.split, b.split) > 1.0f && !(c.restitution > 0.0f) && normal_impulse(impulse) == 0.0f;
-}
-LAW Mass with_true_split(Mass mass, bool condition, Parameters parameters) {
-    mass.split = choose(condition && mass.split > 1.0f, mass.split * reciprocal(parameters.inverse_relaxation), mass.split);
-    return mass;
-}
-
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
 // from where the bodies meet. (Counted from the start of the step, the contact of a body that came down at a slant was gone
 // before it touched: heaps that fell into a narrow bin were 20% deeper.)
@@ -154,8 +143,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
     impulse = after_motion(c, stretched(met, impulse, moved, parameters), moved, parameters);
     c = refresh_round_contact(c, impulse.center_offset);
-    bool first = bears_first(c, impulse, a, b);
-    NormalRows rows = normal_rows(c, impulse.center_offset, with_true_split(a, first, parameters), with_true_split(b, first, parameters));
+    NormalRows rows = normal_rows(c, impulse.center_offset, a, b);
     vec3 speeds = normal_speeds(c, impulse.center_offset, v), press = vec3(0.0f);
     if (!none(struck)) {
         vec4 before = impulse.normal;
@@ -165,6 +153,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k] - before[k], k);
         speeds = speeds + response_to(rows, press);
     }
+    // Nothing begins here: only the biased pass knows among how many contacts a body is split.
+    bool begins = normal_impulse(impulse) > 0.0f && !(c.restitution > 0.0f);
     uint sweeps = sweeps_of(c, speeds, parameters);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         for (int k = 0; k < 4; ++k) {
@@ -174,12 +164,11 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
             float speed = speed_at(c, speeds, k);
             float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
             float before = impulse.normal[k];
-            bool waits = c.restitution > 0.0f && speed < 0.0f;  // an approach is an impact of the next biased pass, or none
-            bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
+            bool acts = there && !rebounds && (before > 0.0f || (begins && !gone && speed + target < 0.0f));
             if (none(acts)) continue;
             vec3 response = response_at(rows, c, k);
             float mass = reciprocal(speed_at(c, response, k));
-            acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+            acts = acts && !(c.restitution > 0.0f && before <= -IMPACT_DISTANCE * mass * speed);  // an impact, or none
             float after = choose(acts, choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target)))), before);
             impulse.normal[k] = after;
             speeds = speeds + response * (after - before);
@@ -252,6 +241,18 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     return choose(open && counted, 1.0f, 0.0f);
 }
 
+// Impacts on a body that is split among more than so many count for the next substep.
+CONSTANT float IMPACTS_AT_ONCE = 1.5f;
+
+// The same for the next substep, after the relax pass: what bore in the biased pass counts, too. A heavy body that falls upon a
+// light one presses it onto its supports in every biased pass, and the light body leaves them again in every relax pass. A single
+// impact does not count, so that the next one, with another body, finds the whole mass; several at once come again together.
+LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    bool struck = is_impact(biased), at_once = larger(a.split, b.split) > IMPACTS_AT_ONCE;
+    bool bore = normal_impulse(biased) > 0.0f && (!struck || at_once);
+    return choose(bore, 1.0f, is_active(c, relaxed, v, parameters));
+}
+
 // A contact is unloaded if all its impulses are zero. A pass changes nothing of such a contact but what after_motion() does, and
 // gives it no share in the bodies' masses, unless the contact becomes loaded in that pass, or counts for the next. These two tell
 // whether it may; they are conservative, and require finite velocities and parameters in their ranges.
@@ -278,11 +279,7 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
         bool there = uint(k) < point_count(c);
         if (none(there)) break;
         float speed = speed_at(c, speeds, k);
-        float separation = impulse.separation[k];
-        float target = choose(separation > 0.0f, separation * parameters.inverse_h, 0.0f);
-        bool counts = open && comes_near(separation, speed, near, parameters);
-        // What closes the gap comes near as well, but for rounding and contacts that end.
-        loads = loads || (there && (counts || !(speed + target >= 0.0f)));
+        loads = loads || (there && open && comes_near(impulse.separation[k], speed, near, parameters));
     }
     return loads;
 }
