@@ -52,9 +52,17 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
 // Several points that approach faster than what gravity adds to a speed in so many substeps are solved in sweeps: a single sweep
 // would leave what falls flat with a spin.
 CONSTANT float ARRIVAL = 4.0f;
+LAW bool arrives_fast(vec3 speeds, Parameters parameters) {
+    return speeds.x < -ARRIVAL * fall_speed(parameters);
+}
 LAW uint sweeps_of(Constraint c, vec3 speeds, Parameters parameters) {
-    bool arrives = point_count(c) > 1u && speeds.x < -ARRIVAL * fall_speed(parameters);
-    return choose(arrives, uint(IMPACT_SWEEPS), 1u);
+    return choose(point_count(c) > 1u && arrives_fast(speeds, parameters), uint(IMPACT_SWEEPS), 1u);
+}
+// In the biased pass over-relaxed shares of the mass overshoot, and the relax pass takes that back. What overshoots in the relax
+// pass is gone, so what still approaches fast there has its true share.
+LAW Mass with_true_split(Mass mass, bool condition, Parameters parameters) {
+    mass.split = choose(condition && mass.split > 1.0f, mass.split * reciprocal(parameters.inverse_relaxation), mass.split);
+    return mass;
 }
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
@@ -131,6 +139,7 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
     return impulse;
 }
 
+CONSTANT float PARTING = 1.5f, FALLING = 5.0f;
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
 // applies restitution and friction. `part`: part_of_stiffness().
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b,
@@ -143,8 +152,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
     impulse = after_motion(c, stretched(met, impulse, moved, parameters), moved, parameters);
     c = refresh_round_contact(c, impulse.center_offset);
-    NormalRows rows = normal_rows(c, impulse.center_offset, a, b);
     vec3 speeds = normal_speeds(c, impulse.center_offset, v), press = vec3(0.0f);
+    bool arrives = arrives_fast(speeds, parameters) && !(c.restitution > 0.0f);
+    NormalRows rows = normal_rows(c, impulse.center_offset, with_true_split(a, arrives, parameters), with_true_split(b, arrives, parameters));
     if (!none(struck)) {
         vec4 before = impulse.normal;
         NormalRows met_rows = normal_rows(met, met_offset, a, b);
@@ -155,6 +165,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     }
     // Nothing begins here: only the biased pass knows among how many contacts a body is split.
     bool begins = normal_impulse(impulse) > 0.0f && !(c.restitution > 0.0f);
+    vec4 parting = vec4(0.0f);
     uint sweeps = sweeps_of(c, speeds, parameters);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         for (int k = 0; k < 4; ++k) {
@@ -173,13 +184,18 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
             impulse.normal[k] = after;
             speeds = speeds + response * (after - before);
             press = press + press_at(c, after - before, k);
+            parting[k] = choose(acts && speed > PARTING * fall_speed(parameters), 1.0f, 0.0f);
         }
     }
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
     result = pressed(result, c, rows, press, a, b);
-    return solve_patch_friction(c, result, normal_impulse(impulse), a, b, false, parameters);
+    result = solve_patch_friction(c, result, normal_impulse(impulse), a, b, false, parameters);
+    float fall = impulse.normal_sum - normal_impulse(impulse);
+    bool restarts = fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
+    for (int k = 0; k < 4; ++k) result.impulse.normal[k] = choose(restarts && parting[k] > 0.0f, 0.0f, result.impulse.normal[k]);
+    return result;
 }
 
 // What a contact exerts on B at the centre of its patch, N s and N m s.
