@@ -176,7 +176,7 @@ LAW VelocityPair scaled_change(VelocityPair before, VelocityPair after, float of
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
 // from where the bodies meet. (Counted from the start of the step, the contact of a body that came down at a slant was gone
-// before it touched: heaps that fell into a narrow bin were 20% deeper.)
+// before it touched: heaps that fell into a narrow bin were a seventh deeper.)
 LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Parameters parameters) {
     bool follows = is_of_round_bodies(c), meets = false;
     for (int k = 0; k < 4; ++k) {
