@@ -21,7 +21,7 @@ struct Margin {
 CONSTANT float DEFLECTED_PART = 0.125f;
 // Bodies pass where their way is longer than so many of their sizes. (With 1, a gas of elastic balls at 50 diameters a second
 // kept 95% of its energy for ten seconds instead of 96: what is deflected is stopped by the time of impact, and loses a part.)
-CONSTANT float PASSING_SIZES = 2.0f;
+CONSTANT float PASSING_SIZES = 4.0f;
 // The most by which a body's turning in the step closes a gap, m: its arc, and never more than its bounding sphere.
 LAW float closed_by_turning(BodyProperties body, float reach, Velocity v, Parameters parameters) {
     float arc = length3(v.angular) * length3(body.size) * parameters.dt;

@@ -120,7 +120,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
 // from where the bodies meet. (Counted from the start of the step, the contact of a body that came down at a slant was gone
-// before it touched: heaps that fell into a narrow bin were 20% deeper.)
+// before it touched: heaps that fell into a narrow bin were a seventh deeper.)
 LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Parameters parameters) {
     bool follows = is_of_round_bodies(c), meets = false;
     vec3 speeds = normal_speeds(c, impulse.center_offset, moved);
