@@ -6,7 +6,7 @@
 namespace scree {
 
 struct Settings {
-    float rate = 60;   // steps per second, 10 to 1000
+    float rate = 60;    // steps per second, 10 to 1000
     int substeps = 12;  // per step, 1 to 64. Contact stiffness grows with its square, cost in proportion
 
     // Contact constraint: a damped spring solved implicitly (Catto, Soft Constraints, GDC 2011).

@@ -159,8 +159,7 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
         std::sort(rows.begin(), rows.end());
         rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         TableRanges records;
-        for (const Table table : {Table::properties, Table::ids, Table::strains})
-            append_rows(records, table, rows);
+        for (const Table table : {Table::properties, Table::ids, Table::strains}) append_rows(records, table, rows);
         return store(records);
     }
     marks_.clear();

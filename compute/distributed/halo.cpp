@@ -9,7 +9,6 @@
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/motion.h"
 
 namespace scree {
 

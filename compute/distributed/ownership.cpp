@@ -31,9 +31,8 @@ struct MovedBody {
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
-    return {state.id_of(row),      state.sleep_states[row],   state.properties[row],         state.poses[row],
-            state.velocities[row], state.masses[row].split_state,
-            state.strains[row]};
+    return {state.id_of(row),      state.sleep_states[row],       state.properties[row], state.poses[row],
+            state.velocities[row], state.masses[row].split_state, state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {
     const std::uint32_t row = state.row_of(body.id);

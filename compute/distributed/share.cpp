@@ -181,8 +181,7 @@ void Share::end(State& state, Exchange& exchange) {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row))
             put(said, OwnedBody{state.id_of(row), state.sleep_states[row], state.properties[row], state.poses[row],
-                                state.velocities[row], state.masses[row].split_state,
-                                state.strains[row]});
+                                state.velocities[row], state.masses[row].split_state, state.strains[row]});
     const std::uint32_t first_part = *state.first_part_id;
     std::vector<std::uint32_t> from(first_part, physics::NONE);
     for (std::uint32_t id = 0; id < state.body_count; ++id) from[id] = state.row_of(id);

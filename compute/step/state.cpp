@@ -222,8 +222,8 @@ static bool is_of_devices(Table table) {
 void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
-    for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions,
-                              hulls, joints, joint_blocks, block_bodies, vehicles, ids, births})
+    for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints,
+                              joint_blocks, block_bodies, vehicles, ids, births})
         make(table);
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);

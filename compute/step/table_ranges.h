@@ -18,8 +18,8 @@ struct TableRange {
 using TableRanges = std::vector<TableRange>;
 
 // The tables of rows that last from step to step: what of a row goes along to other rows, ranks and files.
-inline constexpr std::array row_tables{Table::properties, Table::poses,  Table::velocities,    Table::sleep_states,
-                                       Table::strains,    Table::masses};
+inline constexpr std::array row_tables{Table::properties,   Table::poses,   Table::velocities,
+                                       Table::sleep_states, Table::strains, Table::masses};
 
 // Lengths of all tables, and what else a runner adapts to.
 struct TableLengths {

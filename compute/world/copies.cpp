@@ -128,8 +128,8 @@ void World::Impl::reset(std::span<const std::size_t> which) {
     if (which.empty()) return;
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy;
-    TableRanges changed = rows_of_copies(
-        which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
+    TableRanges changed =
+        rows_of_copies(which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
     if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
     state.make(Table::masses);
     const auto put_back = [&](std::size_t row, std::size_t place) {

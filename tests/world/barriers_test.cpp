@@ -67,10 +67,10 @@ TEST_CASE("a table lasts from step to step if something reads it before it is wr
     const std::vector<Table>& lasting = lasting_tables();
     using enum Table;
     CHECK(std::set<Table>(lasting.begin(), lasting.end()) ==
-          std::set{parameters,   counts,       properties,    poses,           velocities,      masses,         sleep_states,
-                   strains,      hulls,        parts,         fractures,       pieces,          tyres,          surfaces,
-                   immersions,   way_points,   filters,       exclusions,      joints,          vehicles,       ids,
-                   joint_blocks, block_bodies, actions,       contacts_before, impulses_before, impacts_before, first_contacts,
+          std::set{parameters,   counts,       properties, poses,           velocities,      masses,         sleep_states,
+                   strains,      hulls,        parts,      fractures,       pieces,          tyres,          surfaces,
+                   immersions,   way_points,   filters,    exclusions,      joints,          vehicles,       ids,
+                   joint_blocks, block_bodies, actions,    contacts_before, impulses_before, impacts_before, first_contacts,
                    births,       gravities});
 }
 

@@ -41,10 +41,10 @@ struct WideTables {
     bool sums_impacts = true;  // BodyForces.impacts is written: some body may be in an impact with restitution, or `watched`
     bool warm_starts = false;  // preparation warm-starts contacts from the last step, and is that of all contacts
     bool prefetches = false;   // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
-    float* impact_debts = nullptr;        // of each body, J (restitution.h)
-    float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
-    bool first = false;                   // the first substep of a step
-    bool last = false;                    // the last one
+    float* impact_debts = nullptr;  // of each body, J (restitution.h)
+    float* carried = nullptr;       // normal impulse of each contact in the step, N s; null if no body may break
+    bool first = false;             // the first substep of a step
+    bool last = false;              // the last one
 };
 
 constexpr std::size_t words_of_body = 14;  // in body_groups

@@ -234,10 +234,10 @@ struct Pair {
 
 // ---- contacts: persistent state
 struct Contact {
-    uint a, b;           // rows of bodies or parts, the lower id first; all else refers to the bodies that own them
-    uint count;          // points, 1 to 4
-    uint features;       // as in Manifold
-    vec3 normal;         // unit, world, from A to B, when the contact was made
+    uint a, b;      // rows of bodies or parts, the lower id first; all else refers to the bodies that own them
+    uint count;     // points, 1 to 4
+    uint features;  // as in Manifold
+    vec3 normal;    // unit, world, from A to B, when the contact was made
     float pad0;
     vec3 center_offset;  // centre of B minus centre of A when made, m
     float load;          // normal impulse in a substep when both bodies were last awake, N s
@@ -305,15 +305,15 @@ struct Constraint {
     float drive1, drive2;
     float static_friction;        // coefficient, or 0: the dynamic one
     float restitution_threshold;  // speed of the slowest impacts, m/s, or 0: the setting's
-    vec3 centre;                  // of the patch, from the anchor body's, m (CONSTRAINT_ROUND: from B's centre to its centre of curvature)
-    float twist_arm;              // of torsional friction, m: mean distance of the patch from its centre
-    float rolling_resistance;     // of the pair, m
-    float restitution;            // of the pair
-    uint flags;                   // CONSTRAINT_*, with the number of points
-    float tyre_slip;              // speed of slip up to which a tyre's friction rises, m/s, or 0: no tyre rolls
-    float radius_a, radius_b;     // CONSTRAINT_ROUND: of curvature, m
-    uint links;                   // next_of_block()
-    float slide_limit;            // slide after which the points have left the body they slide over, m
+    vec3 centre;      // of the patch, from the anchor body's, m (CONSTRAINT_ROUND: from B's centre to its centre of curvature)
+    float twist_arm;  // of torsional friction, m: mean distance of the patch from its centre
+    float rolling_resistance;  // of the pair, m
+    float restitution;         // of the pair
+    uint flags;                // CONSTRAINT_*, with the number of points
+    float tyre_slip;           // speed of slip up to which a tyre's friction rises, m/s, or 0: no tyre rolls
+    float radius_a, radius_b;  // CONSTRAINT_ROUND: of curvature, m
+    uint links;                // next_of_block()
+    float slide_limit;         // slide after which the points have left the body they slide over, m
 };
 struct VelocityDelta {     // velocity change of one body by one contact; summed in the order of slots
     vec3 linear;           // m/s

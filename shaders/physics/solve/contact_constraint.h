@@ -111,7 +111,8 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     c.flags = contact.count | anchor;
     c.slide_limit = slide_limit_of(contact, ta, tb, anchor);
     bool single = contact.count == 1u;
-    vec3 centre = choose(single, meeting_point(contact, 0, on_b), patch_centre(contact, speculative_of(ta, tb, parameters), on_b));
+    vec3 centre =
+        choose(single, meeting_point(contact, 0, on_b), patch_centre(contact, speculative_of(ta, tb, parameters), on_b));
     vec3 u = tangent(contact.normal), v = cross3(contact.normal, u);
     float reach = 0.0f;
     for (int k = 0; k < 4; ++k) {

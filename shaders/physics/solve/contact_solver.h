@@ -112,7 +112,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     if (!none(strikes || is_impact(impulse)))
-        result.impulse = after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
+        result.impulse =
+            after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
     result.pair_velocity = v;
     result = pressed(result, c, rows, press, a, b);
     return solve_patch_friction(c, result, normal_impulse(impulse), a, b, true, parameters);
@@ -154,7 +155,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     c = refresh_round_contact(c, impulse.center_offset);
     vec3 speeds = normal_speeds(c, impulse.center_offset, v), press = vec3(0.0f);
     bool arrives = arrives_fast(speeds, parameters) && !(c.restitution > 0.0f);
-    NormalRows rows = normal_rows(c, impulse.center_offset, with_true_split(a, arrives, parameters), with_true_split(b, arrives, parameters));
+    NormalRows rows =
+        normal_rows(c, impulse.center_offset, with_true_split(a, arrives, parameters), with_true_split(b, arrives, parameters));
     if (!none(struck)) {
         vec4 before = impulse.normal;
         NormalRows met_rows = normal_rows(met, met_offset, a, b);
@@ -180,7 +182,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
             vec3 response = response_at(rows, c, k);
             float mass = reciprocal(speed_at(c, response, k));
             acts = acts && !(c.restitution > 0.0f && before <= -IMPACT_DISTANCE * mass * speed);  // an impact, or none
-            float after = choose(acts, choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target)))), before);
+            float after =
+                choose(acts, choose(gone, 0.0f, positive(flush_tiny(before - (part * mass) * (speed + target)))), before);
             impulse.normal[k] = after;
             speeds = speeds + response * (after - before);
             press = press + press_at(c, after - before, k);

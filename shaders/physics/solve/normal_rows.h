@@ -29,8 +29,8 @@ LAW vec3 press_at(Constraint c, float impulse, int k) {
 }
 
 struct NormalRows {
-    vec3 u, v;                    // tangents: the axes of the plane
-    vec3 response_a, response_b;  // I^-1 (r x n) of either whole body
+    vec3 u, v;                         // tangents: the axes of the plane
+    vec3 response_a, response_b;       // I^-1 (r x n) of either whole body
     vec3 at_centre, along_u, along_v;  // rows of the inverse effective mass of the split bodies
 };
 LAW NormalRows normal_rows(Constraint c, vec3 d, Mass a, Mass b) {
@@ -41,7 +41,8 @@ LAW NormalRows normal_rows(Constraint c, vec3 d, Mass a, Mass b) {
     rows.v = cross3(c.normal, rows.u);
     rows.response_a = turned_by(a, arm_a);
     rows.response_b = turned_by(b, arm_b);
-    float k00 = (a.inverse_mass + dot3(arm_a, rows.response_a)) * a.split + (b.inverse_mass + dot3(arm_b, rows.response_b)) * b.split;
+    float k00 =
+        (a.inverse_mass + dot3(arm_a, rows.response_a)) * a.split + (b.inverse_mass + dot3(arm_b, rows.response_b)) * b.split;
     vec3 turning = rows.response_a * a.split + rows.response_b * b.split;
     Mass both = a;
     both.xx = a.xx * a.split + b.xx * b.split;

@@ -72,18 +72,18 @@
     X(26, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
     X(26, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
-#define SCREE_QUAD_TABLES(X)                                                                                   \
-    X(27, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */  \
-    X(27, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                   \
-    X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                           \
-    X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */               \
-    X(27, tyres, QuadsTable, Tyre, tyres)                                                                      \
-    X(27, immersions, QuadsTable, Immersion, immersions)    /* by id, if there is air or water: fields.h */    \
-    X(27, surfaces, QuadsTable, Surface, surfaces)          /* of rows with one: material.h */                 \
-    X(27, way_points, QuadsTable, WayPoint, way_points)     /* of the vehicles' routes */                      \
-    X(27, filters, QuadsTable, uvec4, filters)              /* of all rows, if any body has one: filter.h */   \
-    X(27, exclusions, QuadsTable, uvec4, exclusions)        /* pairs of bodies that never collide: filter.h */ \
-    X(27, gravities, QuadsTable, uvec4, gravities)          /* of each copy, if they differ, m/s^2: copies.h */
+#define SCREE_QUAD_TABLES(X)                                                                                  \
+    X(27, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
+    X(27, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
+    X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
+    X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
+    X(27, tyres, QuadsTable, Tyre, tyres)                                                                     \
+    X(27, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
+    X(27, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
+    X(27, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
+    X(27, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
+    X(27, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
+    X(27, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
