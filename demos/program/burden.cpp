@@ -20,14 +20,12 @@ namespace {
 constexpr double least_ratio = 100;  // what bears less, as small bodies in a heap do, is judged by its penetration
 constexpr double upright = 0.5;      // cosine between a contact's normal and the vertical from which on it bears
 
-// Two laws for the first second under a load, until masses are scaled (mass_scaling.h), from columns of 2 to 10 boxes of 0.1 to 3
-// m that bear 300 to 10,000 times the weight of one, over 20 s:
-// - A contact under `ratio` weights of the lighter body gives way by 1.86 ratio g h^2 (contact_momentum.h, substep h). Beyond a
-//   tenth of the width columns of ten buckle: boxes of 0.1 m stand with 16, 32, 48 substeps at 60 Hz under 300, 1,000, 3,000.
-//   Plates of a tenth of their width need less.
-// - Whatever its size, a column needs 0.48 ratio substeps a second: boxes of 1 m stand with 8 and 24 under 1,000 and 3,000.
-constexpr double compliance = 1.86, spare = 1.1;
-constexpr double crushed = 0.09, falling = 0.45;  // of the width, and substeps a second of the ratio, where columns fall
+// Two laws, from columns of 2 to 10 boxes of 0.1 to 3 m that bear 100 to 3,000 times the weight of one, over 10 s:
+// - A contact under `ratio` weights of the lighter body gives way by 3.6 ratio g h^2 (substep h). Beyond a tenth of the width
+//   columns of ten buckle: boxes of 0.1 m stand with 12, 16, 48 substeps at 60 Hz under 100, 300, 1,000.
+// - Whatever its size, a column needs 0.7 to 0.96 ratio substeps a second: boxes of 1 m stand with 16 and 48 under 1,000 and 3,000.
+constexpr double compliance = 3.6, spare = 1.1;
+constexpr double crushed = 0.09, falling = 0.75;  // of the width, and substeps a second of the ratio, where columns fall
 
 double substeps_for(double ratio, double width, double gravity, double give) {
     return std::sqrt(compliance * ratio * gravity / (give * width));

@@ -89,7 +89,7 @@ DemoScene machine(const DemoOptions&) {
     const Indices all = every_body(scene);
     const vec3 low(-1.5f, 0.4f, -0.6f), high(6, 3.6f, 1);
     return awake({std::move(scene), view_of(low, high, 15, 12), low, high, seconds,
-                  Promise(motor_turns, ratio, way, gaps_below("in any joint", 0.0013), none_torn()).watching(all, every_step)});
+                  Promise(motor_turns, ratio, way, gaps_below("in any joint", 0.0006), none_torn()).watching(all, every_step)});
 }
 
 }  // namespace scree::demos

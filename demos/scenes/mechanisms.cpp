@@ -47,7 +47,7 @@ DemoScene seesaw(const DemoOptions&) {
                                        [tipped](const Trace& trace) { return slant(trace.end[tipped]); });
     const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
     return awake({std::move(scene), view_of(low, high, 22, 20), low, high, 6,
-                  Promise(stays_level, heavier_down, penetration_below(0.00055))});
+                  Promise(stays_level, heavier_down, penetration_below(0.0004))});
 }
 
 namespace {
@@ -116,7 +116,7 @@ DemoScene dominoes(const DemoOptions& options) {
             for (std::size_t i = 1; i < trace.end.size(); ++i) standing += !(tilt(trace.end[i], {0, 1, 0}) > 45);
             return static_cast<double>(standing);
         });
-    return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.0018))};
+    return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.0012))};
 }
 
 }  // namespace scree::demos

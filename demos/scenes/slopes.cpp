@@ -22,9 +22,11 @@ Claim accelerates(const std::string& what, std::size_t slot, double expected) {
 }
 
 Claim sticks(const std::string& what, std::size_t body) {
-    return at_most("creep of the " + what, 0.0001, "m", "from its start to the end", [body](const Trace& trace) {
-        return static_cast<double>(glm::length(trace.end[body].position - trace.start[body].position));
-    });
+    return because(at_most("creep of the " + what, 0.0001, "m", "from its start to the end",
+                           [body](const Trace& trace) {
+                               return static_cast<double>(glm::length(trace.end[body].position - trace.start[body].position));
+                           }),
+                   "10 km from the origin, where tests run it too, it is 0.08 mm");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ DemoScene rest(const DemoOptions&) {
             low,
             high,
             5,
-            Promise(drift_below(0.015), end_speed_below(), end_spin_below(), penetration_below(0.0001))};
+            Promise(drift_below(0.015), end_speed_below(), end_spin_below(), penetration_below(0.00006))};
 }
 
 DemoScene stack(const DemoOptions& options) {
@@ -103,12 +103,12 @@ DemoScene stack(const DemoOptions& options) {
 DemoScene stack20(const DemoOptions& options) {
     return awake(
         standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20,
-                 stands(0.011, 0.0007,
+                 stands(0.018, 0.0018,
                         {0.0012, rest_spin, 0.0013, "positions 10 km from the origin, where tests run it too, are 1 mm apart"})));
 }
 
 DemoScene tower(const DemoOptions& options) {
-    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20, stands(0.02, 0.0007, {0.0014, rest_spin, 0.0009})));
+    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20, stands(0.07, 0.0035, {0.0018, rest_spin, 0.0016})));
 }
 
 // Taller than the solver can hold awake indefinitely: the column stands because it falls asleep.
@@ -147,11 +147,11 @@ DemoScene heavy_on_light(const DemoOptions& options, float ratio, const Promise&
 }  // namespace
 
 DemoScene heavytop(const DemoOptions& options) {
-    return heavy_on_light(options, 100, stands(0.005, 0.0006, {0.003, rest_spin, 0.0018, by_seed}));
+    return heavy_on_light(options, 100, stands(0.085, 0.01, {0.003, rest_spin, 0.0018, by_seed}));
 }
 
 DemoScene heaviertop(const DemoOptions& options) {
-    return heavy_on_light(options, 300, stands(0.005, 0.0006, {0.003, rest_spin, 0.0018, by_seed}));
+    return heavy_on_light(options, 300, stands(0.25, 0.028, {0.0042, 0.00065, 0.0036, by_seed}));
 }
 
 DemoScene wall(const DemoOptions& options) {
@@ -172,15 +172,15 @@ DemoScene wall(const DemoOptions& options) {
             scene.bodies.push_back(box_at({x, y, random.between(-0.002f, 0.002f)}, size - vec3(0.0005f, 0, 0)));
         }
     }
-    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20, stands(0.008, 0.0008)));
+    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20, stands(0.011, 0.0012)));
 }
 
 DemoScene pyramid(const DemoOptions& options) {
-    return pyramid_of(30, options.seed, stands(0.022, 0.001));
+    return pyramid_of(30, options.seed, stands(0.022, 0.0015));
 }
 
 DemoScene pyramid100(const DemoOptions& options) {
-    return pyramid_of(100, options.seed, Promise(drift_below(0.12), end_speed_below(0.0009), sway_below(0.0005)));
+    return pyramid_of(100, options.seed, Promise(drift_below(0.27), end_speed_below(0.0009), sway_below(0.0005)));
 }
 
 }  // namespace scree::demos

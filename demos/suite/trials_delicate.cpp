@@ -47,7 +47,7 @@ DemoScene cards(const DemoOptions& options) {
     }
     const vec3 low(-1.3f, 0, -0.6f), high(1.3f, 2.7f, 0.6f);
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20,
-                  Promise(drift_below(0.009), end_speed_below(), end_spin_below(), sway_below())});
+                  Promise(drift_below(0.011), end_speed_below(), end_spin_below(), sway_below())});
 }
 
 // Jenga blocks, scaled by ten.
@@ -70,7 +70,7 @@ DemoScene jenga(const DemoOptions& options) {
     }
     const vec3 low(-0.8f, 0, -0.8f), high(0.8f, 2.75f, 0.8f);
     return awake({std::move(scene), view_of(low, high, 30, 14), low, high, 20,
-                  Promise(drift_below(0.01), end_speed_below(), end_spin_below(), sway_below(), penetration_below(0.0008))});
+                  Promise(drift_below(0.016), end_speed_below(), end_spin_below(), sway_below(), penetration_below(0.0018))});
 }
 
 // A plate on a table smaller than itself, under a layer of boxes of 2.5 times its mass. On a plate of a tenth of
@@ -113,7 +113,7 @@ DemoScene tray(const DemoOptions& options) {
     const vec3 low(-half.x, 0, -half.z), high(half.x, 2.4f, half.z);
     return awake(
         {std::move(scene), view_of(low, high, 30, 24), low, high, 20,
-         Promise(still, because(calm, at_rest), because(level, "single precision resolves 0.02 degrees"), drift_below(0.0009))
+         Promise(still, because(calm, at_rest), because(level, "single precision resolves 0.02 degrees"), drift_below(0.00045))
              .watching({plate}, {every_step, 15})});
 }
 

@@ -127,7 +127,7 @@ DemoScene yaw(const DemoOptions&) {
         }
     }
     const vec3 low(-6, 0, -17), high(6, 7, 17);
-    Promise promise(straight_down(bodies, incline.down(), 0.0025), all_accelerate("boxes at any yaw", sliding, 0.3, 0.0018));
+    Promise promise(straight_down(bodies, incline.down(), 0.0004), all_accelerate("boxes at any yaw", sliding, 0.3, 0.0008));
     return awake({std::move(scene), view_of(low, high, 55, 25), low, high, 2, std::move(promise).watching(bodies)});
 }
 
@@ -193,8 +193,8 @@ DemoScene turntable(const DemoOptions&) {
         }
     }
     const vec3 low(-11, 0, -5), high(11, 1.5f, 11);
-    Promise promise(none_creeps("boxes at 0.9 of the limit", riders, 1, 0.00006),
-                    none_creeps("stacks of five at a pull of 0.06 g", stacked, 1, 0.0002));
+    Promise promise(none_creeps("boxes at 0.9 of the limit", riders, 1, 0.000016),
+                    none_creeps("stacks of five at a pull of 0.06 g", stacked, 1, 0.00013));
     return awake({std::move(scene), view_of(low, high, 30, 40), low, high, 20, std::move(promise).watching(watched)});
 }
 

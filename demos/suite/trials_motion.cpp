@@ -32,11 +32,11 @@ DemoScene bounce(const DemoOptions&) {
         full.push_back(dropped(Sphere{radius}, radius, height, 1, 5));
     }
     const vec3 low(-9, 0, -0.5f), high(9, 5.7f, 0.5f);
-    Promise promise(all_bounce("bounces of spheres, e = 0, of the fall", dead, 0.006),
-                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 0.003),
-                    all_bounce("bounces of spheres, e = 0.5", half, 0.0018),
-                    all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 0.0018),
-                    all_bounce("five bounces of spheres, e = 1", full, 0.0035));
+    Promise promise(all_bounce("bounces of spheres, e = 0, of the fall", dead, 0.004),
+                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 0.006),
+                    all_bounce("bounces of spheres, e = 0.5", half, 0.0013),
+                    all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 0.0012),
+                    all_bounce("five bounces of spheres, e = 1", full, 0.0009));
     // Five bounces from 5 m: 1 s down, four times 2 s, and 1 s up to the last apex.
     return {std::move(scene), view_of(low, high, 12, 10), low, high, 10.5f, std::move(promise).watching(watched, every_step)};
 }
@@ -57,7 +57,7 @@ DemoScene tumbling(const DemoOptions&) {
     }
     const vec3 low(-4.2f, 0.3f, -1.2f), high(4.2f, 2.7f, 1.2f);
     Promise promise(each_turns_over(watched, {0, 1, 0}, 120), each_keeps_angular_momentum(watched, 1.4e-5),
-                    each_keeps_energy(watched, 2.5e-5));
+                    each_keeps_energy(watched, 3e-5));
     return {std::move(scene), view_of(low, high, 20, 20), low, high, 30, std::move(promise).watching(watched)};
 }
 

@@ -107,8 +107,8 @@ DemoScene compounds(const DemoOptions&) {
         bars.push_back(add_body(scene, bar(), {2 + beyond - bar_centre, 1.1f, z}));
     }
     const vec3 low(-4.5f, 0, -1), high(3, 2, 1);
-    Promise promise(all_stay("tables, and columns of three boxes on them", tables, 0.0009),
-                    all_stay("a bar whose centre of mass is 2 cm before the edge", {bars[0]}, 0.000075), tips(bars[1]));
+    Promise promise(all_stay("tables, and columns of three boxes on them", tables, 0.0006),
+                    all_stay("a bar whose centre of mass is 2 cm before the edge", {bars[0]}, 0.000045), tips(bars[1]));
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 4, std::move(promise)});
 }
 
@@ -122,7 +122,7 @@ DemoScene feet(const DemoOptions& options) {
     for (const int count : {2, 5}) add_column(scene, stool(), 0.51f, count, {x += 1.5f, 0, 0}, random);
     add_column(scene, table(0.1f), 0.08f, 3, {x += 1, 0, 0}, random);
     const vec3 low(-4, 0, -1), high(x + 0.5f, 4, 1);
-    Promise promise(drift_below(0.0018), end_speed_below(rest_speed, 10), end_spin_below(rest_spin, 10));
+    Promise promise(drift_below(0.0011), end_speed_below(rest_speed, 10), end_spin_below(rest_spin, 10));
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20, std::move(promise)});
 }
 
@@ -138,7 +138,7 @@ DemoScene rollmesh(const DemoOptions& options) {
     ball.velocity = velocity;
     ball.angular_velocity = glm::cross(vec3(0, 1, 0), velocity) / radius;
     scene.bodies.push_back(ball);
-    const Claim straight = at_most("greatest deviation from a straight line", 0.00035, "m",
+    const Claim straight = at_most("greatest deviation from a straight line", 0.00004, "m",
                                    "of the ball's centre at every step, up and sideways", [start, velocity](const Trace& trace) {
                                        const glm::dvec3 along = glm::normalize(glm::dvec3(velocity));
                                        double most = 0;
@@ -152,7 +152,7 @@ DemoScene rollmesh(const DemoOptions& options) {
         return static_cast<double>(glm::length(trace.end[1].position - trace.start[1].position));
     });
     const Claim even =
-        at_most("change of speed", 0.0007, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
+        at_most("change of speed", 0.000035, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
             return std::abs(static_cast<double>(glm::length(trace.end[1].velocity) - glm::length(trace.start[1].velocity)));
         });
     const vec3 low(-6, 0, -1.5f), high(6, 1, 1.5f);

@@ -30,7 +30,7 @@ DemoScene solids(const DemoOptions&) {
     const vec3 low(-6, 0, -1), high(6, 5, 5);
     // I = m r^2 / 2 for a cylinder, so it accelerates by two thirds of gravity along the slope.
     const double expected = incline.along() * 2 / 3;
-    Promise promise(all_stay("cylinders, a cone and a hull that stand or lie", standing, 0.0001),
+    Promise promise(all_stay("cylinders, a cone and a hull that stand or lie", standing, 0.00006),
                     all_stay("ten hulls, one on the other", column, 0.006),
                     close_to("acceleration of a cylinder that rolls", expected, 0.01 * expected, "m/s^2",
                              "velocity gained down the incline from half a second to the end",

@@ -90,10 +90,8 @@ double greatest_energy(const Blow& blow, std::uint32_t seed) {
 
 }  // namespace
 
-// Measured: none of 480 blows gains with restitution 0 and 1 (1.0 and 1.008 times at most), 1 with 0.5 (1.03). Before contacts
-// that meet within a substep waited for the next one to be counted, and what is under a blow did not rebound, one in twelve
-// gained, up to 260 times; before impulses restarted and arrivals counted two substeps ahead 8, 2 and 1, up to 2.1 times. Of
-// 7,680 in other places, three gain with restitution 0 (2.4 times at most), one with 0.5 and 115 with 1 (1.9 times).
+// Measured: of 480 blows each, none gains with restitution 0 and 0.5, 1 with 1 (1.098 times). When contacts also began in the relax
+// pass, and counted only while they were near, 19 gained with 0 and 4 with 1, up to 232 times.
 TEST_CASE("a heavy body that falls upon a light one on several supports leaves with no more energy than it brought") {
     for (const float restitution : {0.0f, 0.5f, 1.0f}) {
         int gained = 0, blows = 0;
@@ -112,7 +110,7 @@ TEST_CASE("a heavy body that falls upon a light one on several supports leaves w
         CAPTURE(restitution, gained, blows, worst);
         CHECK(worst > 0.99);
         CHECK(worst < 1.1);
-        CHECK(gained <= (restitution == 0.5f ? 2 : 0));
+        CHECK(gained <= (restitution == 1 ? 1 : 0));
     }
 }
 
@@ -152,8 +150,8 @@ double rebound(int light, float ratio, float speed, bool balls, std::uint32_t se
 
 }  // namespace
 
-// The impulses of a blow converge in several substeps, and restart when what they have stopped leaves (contact_momentum.h).
-// Measured: 0.20 in the mean, 0.46 at worst; without restarts 0.52 and 0.72.
+// The impulses of a blow converge in several substeps, and restart when what they have stopped leaves (contact_solver.h).
+// Measured: 0.138 in the mean, 0.37 at worst; without restarts 0.43 and 0.59.
 TEST_CASE("what falls upon lighter bodies without restitution hardly rises again") {
     double sum = 0, worst = 0;
     int falls = 0;
@@ -166,8 +164,8 @@ TEST_CASE("what falls upon lighter bodies without restitution hardly rises again
                     worst = std::max(worst, part);
                 }
     CAPTURE(sum / falls, worst);
-    CHECK(sum / falls < 0.22);
-    CHECK(worst < 0.5);
+    CHECK(sum / falls < 0.16);
+    CHECK(worst < 0.45);
 }
 
 namespace {
@@ -205,8 +203,8 @@ double rise_from_tiles(int tiles, bool ball, float speed, float gap) {
 
 }  // namespace
 
-// Measured: 0.003 in the mean, 0.10 at worst. Before shares were true in the relax pass and arrivals counted two substeps ahead
-// 0.11 and 4.6.
+// Measured: 0.0003 in the mean, 0.018 at worst; with contacts that begin in the relax pass 0.85 and 5.8, with over-relaxed shares
+// there 0.035 and 0.32.
 TEST_CASE("what falls flat upon several supports without restitution stays there") {
     double sum = 0, worst = 0;
     int falls = 0;
@@ -220,6 +218,6 @@ TEST_CASE("what falls flat upon several supports without restitution stays there
                     worst = std::max(worst, rise);
                 }
     CAPTURE(sum / falls, worst);
-    CHECK(sum / falls < 0.005);
-    CHECK(worst < 0.15);
+    CHECK(sum / falls < 0.001);
+    CHECK(worst < 0.05);
 }

@@ -88,8 +88,8 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches, bool point_
     impulse.flight_energy = was.flight_energy;
     bool bears = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f;
     bool twists = bears && (now.count > 1u || point_twists);
-    impulse.friction = choose(bears, was.friction - now.normal * dot3(was.friction, now.normal), impulse.friction);
-    impulse.stretch = choose(bears, was.stretch - now.normal * dot3(was.stretch, now.normal), impulse.stretch);
+    impulse.friction = choose(bears, flush_tiny(was.friction - now.normal * dot3(was.friction, now.normal)), impulse.friction);
+    impulse.stretch = choose(bears, flush_tiny(was.stretch - now.normal * dot3(was.stretch, now.normal)), impulse.stretch);
     impulse.rolling = choose(bears, was.rolling, impulse.rolling);
     impulse.twist = choose(twists, was.twist, 0.0f);
     impulse.turn = choose(twists, was.turn, 0.0f);

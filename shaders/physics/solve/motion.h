@@ -8,8 +8,7 @@
 
 LAWS_BEGIN
 
-// Whether there is gravity. Without it no contact persists (persistence.h) and impulses have no momentum
-// (contact_momentum.h).
+// Whether there is gravity. Without it no contact persists (persistence.h).
 LAW bool has_weight(Parameters parameters) {
     vec3 pull = absolute3(parameters.gravity);
     return pull.x > 1.0e-9f || pull.y > 1.0e-9f || pull.z > 1.0e-9f;
