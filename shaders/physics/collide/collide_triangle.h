@@ -8,9 +8,9 @@
 
 LAWS_BEGIN
 
-// At a seam whose contact is turned to the face normal, the depth below the face's plane may exceed the true
-// penetration by this part of min_half_width. With less, a body pressed into a seam has no contact; with more, a box
-// that leans on a step is lifted onto it.
+// Where the edges refuse the axis of least penetration, the patch below the face may be deeper than that penetration by
+// this part of min_half_width. With less, a body pressed into a seam has no contact; with more, a box that leans on a
+// step is lifted onto it.
 CONSTANT float UNDER_SEAM = 0.05f;
 
 // The sphere first. By the point of the triangle nearest to the centre.
@@ -53,12 +53,7 @@ LAW ManifoldBuffer collide_convex_triangle(BodyProperties ta, Pose pose_a, BodyP
     vec3 normal = allowed_normal(own, face, s.normal, hulls);
     vec3 bent = normal - s.normal;
     bool refused = dot3(bent, bent) > BENT_SQUARED;
-    bool on_face = s.by_face_a >= s.distance - slop;
-    if (refused && !on_face) {
-        vec3 off_face = normal - face;
-        on_face = dot3(off_face, off_face) < 1.0e-12f && s.by_face_a >= s.distance - UNDER_SEAM * other.scale;
-        if (!on_face) return empty_manifold();
-    }
+    bool on_face = refused || s.by_face_a >= s.distance - slop;
     bool of_b = !on_face && s.by_face_b >= s.distance - slop;
     if (on_face || of_b) {
         ConvexShape first = own, second = other;
@@ -71,8 +66,11 @@ LAW ManifoldBuffer collide_convex_triangle(BodyProperties ta, Pose pose_a, BodyP
         ManifoldBuffer touch = manifold_of_face(first, second, between, of_b ? s.face_b : 0u, slop, margin, hulls);
         float by_face = of_b ? s.by_face_b : s.by_face_a;
         bool holds = touch.count > 0u && deepest_of(touch) <= by_face + slop;
-        if (of_b && holds) return touch;
-        if (on_face && (holds || refused)) return flipped(touch, d);
+        if (refused) {
+            if (touch.count == 0u || deepest_of(touch) < s.distance - UNDER_SEAM * other.scale) return empty_manifold();
+            return flipped(touch, d);
+        }
+        if (holds) return of_b ? touch : flipped(touch, d);
     }
     s.normal = normal;
     s.distance = dot3(normal, minkowski_support(own, other, d, normal, hulls)) - other.radius;

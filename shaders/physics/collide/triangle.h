@@ -28,22 +28,25 @@ LAW vec3 corner_of_triangle(ConvexShape triangle, uint k, Hulls hulls) {
     return in_world(triangle.axes, hull_vertex(hulls, triangle.hull, k < 3u ? k : k - 3u));
 }
 
-// The unit normal if the edges allow it, else the nearest allowed one; away from the triangle.
+// The unit normal if the edges allow it, else the nearest that the refusing edge allows (it keeps the lean along that edge:
+// with the limit itself, a body that lies across a ridge lost its contact at the ridge's end); if another edge refuses
+// that too, the face normal. Away from the triangle.
 LAW vec3 allowed_normal(ConvexShape triangle, vec3 face, vec3 normal, Hulls hulls) {
     vec3 allowed = normal;
-    uint refused = 0u;
-    vec3 from = corner_of_triangle(triangle, 0u, hulls);
-    for (uint k = 0u; k < 3u; ++k) {
-        vec3 to = corner_of_triangle(triangle, k + 1u, hulls);
-        vec3 outward = cross3(to - from, face);
-        from = to;
-        float over = dot3(normal, outward);
-        vec3 limit = limit_at(triangle, k, hulls);
-        if (over <= 0.0f || over * dot3(limit, face) <= dot3(normal, face) * dot3(limit, outward)) continue;
-        allowed = limit;
-        refused = refused + 1u;
+    uint refusing = 3u;
+    bool at_corner = false;
+    for (uint k = 0u; k < 5u && !at_corner; ++k) {
+        uint side = k < 3u ? k : k - 3u;
+        vec3 edge = corner_of_triangle(triangle, side + 1u, hulls) - corner_of_triangle(triangle, side, hulls);
+        vec3 outward = cross3(edge, face), limit = limit_at(triangle, side, hulls);
+        float over = dot3(allowed, outward), within = dot3(allowed, limit);
+        if (side == refusing || over <= 0.0f || over * dot3(limit, face) <= dot3(allowed, face) * dot3(limit, outward)) continue;
+        at_corner = refusing < 3u;
+        refusing = side;
+        vec3 along = edge * (dot3(allowed, edge) * reciprocal(dot3(edge, edge)));
+        allowed = within > 0.0f ? unit3(along + limit * within, limit) : limit;
     }
-    return refused > 1u ? face : allowed;
+    return at_corner ? face : allowed;
 }
 
 // Whether a body whose centre has that height over the triangle is in front of it.
