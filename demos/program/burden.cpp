@@ -23,7 +23,8 @@ constexpr double upright = 0.5;      // cosine between a contact's normal and th
 // Two laws, from columns of 2 to 10 boxes of 0.1 to 3 m that bear 100 to 3,000 times the weight of one, over 10 s:
 // - A contact under `ratio` weights of the lighter body gives way by 3.6 ratio g h^2 (substep h). Beyond a tenth of the width
 //   columns of ten buckle: boxes of 0.1 m stand with 12, 16, 48 substeps at 60 Hz under 100, 300, 1,000.
-// - Whatever its size, a column needs 0.7 to 0.96 ratio substeps a second: boxes of 1 m stand with 16 and 48 under 1,000 and 3,000.
+// - Whatever its size, a column needs 0.7 to 0.96 ratio substeps a second: boxes of 1 m stand with 16 and 48 under 1,000 and
+// 3,000.
 constexpr double compliance = 3.6, spare = 1.1;
 constexpr double crushed = 0.09, falling = 0.75;  // of the width, and substeps a second of the ratio, where columns fall
 

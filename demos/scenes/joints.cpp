@@ -163,12 +163,14 @@ DemoScene bridge(const DemoOptions& options) {
         });
     const Indices all = every_body(scene);
     const vec3 low(-8, 1, -2), high(8, 6, 2);
-    return {std::move(scene),
-            view_of(low, high, 25, 14),
-            low,
-            high,
-            15,
-            Promise(because(gaps_below("between planks", 0.00032), "it differs by three times between seeds"), carried, none_torn()).watching(all)};
+    return {
+        std::move(scene),
+        view_of(low, high, 25, 14),
+        low,
+        high,
+        15,
+        Promise(because(gaps_below("between planks", 0.00032), "it differs by three times between seeds"), carried, none_torn())
+            .watching(all)};
 }
 
 DemoScene ragdolls(const DemoOptions& options) {

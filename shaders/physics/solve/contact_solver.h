@@ -140,12 +140,12 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
     return impulse;
 }
 
-// Restart (O'Donoghue, Candes, Adaptive restart for accelerated gradient schemes, Found. Comput. Math. 15, 2015). After a blow the
-// iteration converges in the more substeps the lighter the struck bodies are; its impulses are greatest when the heavy body has
-// stopped, and throw it back while they fall. So a point that parts starts the next substep with none, where the impulse of its
-// contact falls by more than a blow's part. Both limits in what gravity adds to a speed in a substep: of the parting, and of the
-// change that the fallen impulse makes to the lighter body. (Without, what fell upon light bodies rose with 43% of its speed in
-// the mean, now with 14%; without FALLING columns and coins fall.)
+// Restart (O'Donoghue, Candes, Adaptive restart for accelerated gradient schemes, Found. Comput. Math. 15, 2015). After a blow
+// the iteration converges in the more substeps the lighter the struck bodies are; its impulses are greatest when the heavy body
+// has stopped, and throw it back while they fall. So a point that parts starts the next substep with none, where the impulse of
+// its contact falls by more than a blow's part. Both limits in what gravity adds to a speed in a substep: of the parting, and of
+// the change that the fallen impulse makes to the lighter body. (Without, what fell upon light bodies rose with 43% of its speed
+// in the mean, now with 14%; without FALLING columns and coins fall.)
 CONSTANT float PARTING = 1.5f, FALLING = 5.0f;
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
