@@ -178,7 +178,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
-        {{contacts, A::contacts, 1}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt});
+        {{constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
@@ -189,9 +189,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers}, {births}, {gravities}, {ids}, {actions, A::actions}},
-        {{velocities, A::movers}, {masses, A::movers, 1}},
-        physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GHOSTS | physics::FEATURE_GRAVITIES});
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses}, {actions, A::actions}},
+        {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_GHOSTS});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {masses, A::movers}, {velocities, A::movers}, {forces},
          {gravities}, {ids}},
@@ -223,7 +222,7 @@ std::vector<StageDeclaration> declare() {
         {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
-        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}, {masses, A::actions}},
+        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
     all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
         {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}, {gravities}},

@@ -10,7 +10,6 @@
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/stages/lib/copies.glsl"
 
 // after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
