@@ -173,7 +173,7 @@ std::vector<std::unique_ptr<Engine>> keepers(const Scene& scene) {
     // As stiff as substeps allow is an eighth of their rate, and Box3D's default 30 Hz: that of 4 substeps.
     engines.push_back(make_box3d(scene, 8, 60));
 #endif
-    for (const int substeps : {4, 6, 8}) engines.push_back(make_scree_on_processor(scene, 1, substeps));
+    for (const int substeps : {4, 8, 12}) engines.push_back(make_scree_on_processor(scene, 1, substeps));
     return engines;
 }
 

@@ -32,7 +32,7 @@ struct Keeping {
 // Every engine takes `steps` steps, by turns of one.
 std::vector<Keeping> keep(const Scene& scene, const std::vector<std::unique_ptr<Engine>>& engines, int steps);
 
-// scree at 4, 6 and 8 substeps, and Box3D at 4 and 8 if the build has it, at 8 also with contacts as stiff as they then can be;
+// scree at 4, 8 and 12 substeps, and Box3D at 4 and 8 if the build has it, at 8 also with contacts as stiff as they then can be;
 // one thread each.
 std::vector<std::unique_ptr<Engine>> keepers(const Scene& scene);
 

@@ -70,6 +70,7 @@ LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockB
     PassOutcome outcome;
     outcome.borne = normal_impulse(after.impulse);
     outcome.impulse = clear_impacts(after.impulse, point_count(c));
+    for (int k = 0; k < 4; ++k) outcome.impulse.normal[k] = choose(after.restarts[k] > 0.0f, 0.0f, outcome.impulse.normal[k]);
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);

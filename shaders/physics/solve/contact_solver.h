@@ -110,6 +110,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         }
     }
     SolveResult result;
+    result.restarts = vec4(0.0f);
     result.impulse = impulse;
     if (!none(strikes || is_impact(impulse)))
         result.impulse =
@@ -198,13 +199,14 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
         }
     }
     SolveResult result;
+    result.restarts = vec4(0.0f);
     result.impulse = impulse;
     result.pair_velocity = v;
     result = pressed(result, c, rows, press, a, b);
     result = solve_patch_friction(c, result, normal_impulse(impulse), a, b, false, parameters);
     float fall = impulse.normal_sum - normal_impulse(impulse);
     bool restarts = fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
-    for (int k = 0; k < 4; ++k) result.impulse.normal[k] = choose(restarts && parting[k] > 0.0f, 0.0f, result.impulse.normal[k]);
+    result.restarts = choose(restarts, parting, vec4(0.0f));
     return result;
 }
 

@@ -23,6 +23,7 @@ struct SolveResult {
     Impulse impulse;
     VelocityPair pair_velocity;  // of the split bodies, afterwards
     vec3 push, moment;           // that the pass exerts on B at the centre of the patch, N s and N m s
+    vec4 restarts;               // per point, 1: the next substep begins without its normal impulse
 };
 
 struct LeverArms {
