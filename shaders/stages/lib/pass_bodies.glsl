@@ -10,6 +10,8 @@
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/driven.h"
 #include "shaders/physics/solve/motion.h"
+#include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
