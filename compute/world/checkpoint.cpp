@@ -28,7 +28,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 5;
+constexpr std::uint32_t format = 6;
 
 struct Head {
     char magic[8];

@@ -60,7 +60,7 @@ std::vector<Resting> resting_pairs(const World& world, std::size_t count, const 
 }  // namespace
 
 double needed_substeps(double ratio, double width, double gravity) {
-    return spare * std::max(spare * falling * ratio, substeps_for(ratio, width, gravity, 0.6 * crushed));
+    return spare * std::max(spare * falling * ratio, substeps_for(ratio, width, gravity, 0.2 * crushed));
 }
 
 std::vector<Burden> overburdened(const World& world) {

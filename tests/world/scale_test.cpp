@@ -172,7 +172,7 @@ TEST_CASE("heaps of thrown plates, prisms and rods come to rest") {
                 scene.bodies.push_back(body);
             }
             World world(scene, awake(), 1);
-            const Motionlessness most = at_rest_after(world, 1140);
+            const Motionlessness most = at_rest_after(world, 2340);
             CAPTURE(kind, size);
             CHECK(most.speed < 0.005);
             CHECK(most.spin < 0.01);
