@@ -354,7 +354,7 @@ TEST_CASE("program: what bears too much is named, with the substeps that hold it
         return json::parse(run_scree("run '" + file + "' --backend cpu --threads 1 --seconds 10 --report - " + options).output);
     };
     for (const double ratio : {100.0, 300.0}) REQUIRE(run(column("fits.json", 10, 0.5, ratio), "")["advice"].empty());
-    for (const auto& [boxes, half, ratio] : {std::tuple(10, 0.5, 3000.0), {10, 0.15, 1000.0}, {5, 0.05, 300.0}}) {
+    for (const auto& [boxes, half, ratio] : {std::tuple(10, 0.5, 3000.0), {10, 0.15, 1000.0}, {5, 0.05, 500.0}}) {
         const std::string file = column("heavy.json", boxes, half, ratio);
         const json falls = run(file, "");
         INFO(falls.dump(1));
