@@ -40,7 +40,7 @@ SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std
     fetch(next.c.flags, next.c.flags);
     if (!plain) fetch(next.c.tyre_slip, next.c.tyre_slip);
     fetch(next.c.slide_limit, next.c.slide_limit);
-    fetch(next.impulse.normal, next.impulse.normal);
+    fetch_points(next.impulse.normal);
     fetch_points(next.impulse.separation);
     if (!plain) fetch(next.impulse.impact, next.impulse.flight_energy);
     fetch(next.impulse.friction, next.impulse.turn);

@@ -28,10 +28,6 @@ LAW uint copy_of_id(uint id, Parameters parameters) {
     return quotient(id, parameters.bodies_of_copy);
 }
 #endif
-// Steps since a copy began: in the step of its birth it has no contacts before.
-LAW uint age_of_copy(uint steps, uint birth) {
-    return steps - birth;
-}
 LAW Parameters with_gravity(Parameters parameters, vec3 gravity) {
     parameters.gravity = gravity;
     return parameters;

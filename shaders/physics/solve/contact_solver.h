@@ -5,7 +5,7 @@
 // impulses are equal (mass_splitting.h). A contact solves its points by Gauss-Seidel on its two split bodies, and each
 // whole body receives 1/s of its split body's velocity change. So contacts are independent, momentum is exact, the
 // order of contacts means nothing, and the iteration converges (s = n/omega with omega < 2 is over-relaxed Jacobi on
-// the split masses). n counts only active contacts, which bear a normal impulse or will in the next substep: a ball
+// the split masses). n counts only active contacts, which bore in the biased pass or come near in the next substep: a ball
 // about to be struck shares no mass with the neighbour that it merely lies beside.
 //
 // Soft constraints (Catto, Soft Constraints, GDC 2011; Solver2D, 2024): penetration is a damped spring, solved
@@ -17,8 +17,7 @@
 // rounding. A contact ends within the step once its bodies have slid along the surface by more than the half width of
 // the body slid over: its points would hang in the air, so it pushes no more until the next narrowphase.
 //
-// The contacts of one pair of bodies are one block
-// (contact_block.h).
+// The contacts of one pair of bodies are one block (contact_block.h).
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 

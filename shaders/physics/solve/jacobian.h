@@ -75,10 +75,6 @@ LAW JacobianRow jacobian_row(LeverArms r, vec3 direction, Mass a, Mass b) {
     row.pad2 = 0.0f;
     return row;
 }
-// Effective mass of the two split bodies along the row, kg.
-LAW float mass_along(JacobianRow row, Mass a, Mass b) {
-    return reciprocal(row.inverse_effective_mass_a * a.split + row.inverse_effective_mass_b * b.split);
-}
 // J v: the relative velocity (B minus A) along the row.
 LAW float speed_along(JacobianRow row, VelocityPair v) {
     return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular));
