@@ -4,6 +4,7 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
@@ -41,9 +42,10 @@ bool same(const Event& x, const Event& y) {
 
 }  // namespace
 
-TEST_CASE("a device gives the bits and the events of the CPU while bodies come, go, move and change", "[vulkan]") {
-    const auto device = host::Device::open(
-        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+TEST_CASE("a device gives the bits and the events of the CPU while bodies come, go, move and change",
+          "[vulkan][process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::museum(30);
     World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
     tests::Noise noise(4);
@@ -92,8 +94,9 @@ TEST_CASE("a device gives the bits and the events of the CPU while bodies come, 
     REQUIRE(fresh.contacts().size() == cpu.contacts().size());
 }
 
-TEST_CASE("a thousand bodies are added and removed in one upload of what changed", "[vulkan]") {
-    const auto device = host::Device::open({.which = "", .validation = false, .on_message = {}});
+TEST_CASE("a thousand bodies are added and removed in one upload of what changed", "[vulkan][process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     World there(tests::heap(1200), {}, make_device_runner(device));
     there.step(2);
     std::vector<Body> born;
@@ -117,9 +120,9 @@ TEST_CASE("a thousand bodies are added and removed in one upload of what changed
 }
 
 // Random programs 2380, 3309, 3508 and 5723: rows were to be uploaded of a table that was gone.
-TEST_CASE("bodies are added on a device after the last one with a filter was removed", "[vulkan]") {
-    const auto device =
-        host::Device::open({.validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+TEST_CASE("bodies are added on a device after the last one with a filter was removed", "[vulkan][process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Scene scene;
     const auto body_at = [](const Shape& shape, vec3 position) {
         Body body;

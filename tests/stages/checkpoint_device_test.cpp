@@ -3,13 +3,14 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/museum.h"
 
 using namespace scree;
 
-TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a device", "[vulkan]") {
-    const auto device = host::Device::open(
-        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a device", "[vulkan][process:runs]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::museum(60);
     World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
     const auto go_on = [](World& world, std::uint64_t steps) {
@@ -40,13 +41,14 @@ TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a 
     }
 }
 
-TEST_CASE("a device passes over steps in which all sleep, and goes on with the bits of the CPU", "[vulkan]") {
+TEST_CASE("a device passes over steps in which all sleep, and goes on with the bits of the CPU", "[vulkan][process:runs]") {
     Scene scene;
     scene.bodies.resize(6);
     scene.bodies[0].motion = Motion::fixed;
     scene.bodies[0].shape = Plane{};
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.bodies[i].position = vec3(0, static_cast<float>(i) - 0.5f, 0);
-    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(host::Device::open({})));
+    const Watched watched;
+    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(watched.device));
     for (World* world : {&cpu, &there}) {
         world->step(150);
         world->keep_state();

@@ -20,7 +20,7 @@ void vary(std::size_t copy, Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("copies of a scene with a gravity of their own are equal on both processors after every stage") {
+TEST_CASE("copies of a scene with a gravity of their own are equal on both processors after every stage", "[process:kinds]") {
     const Watched watched;
     Lockstep lockstep(tests::heap(10), {.pairs_at_first = 16, .contacts_at_first = 8}, watched.device, 2, 3, vary);
     for (int step = 0; step < 16; ++step) {
@@ -32,7 +32,7 @@ TEST_CASE("copies of a scene with a gravity of their own are equal on both proce
     }
 }
 
-TEST_CASE("copies on a device have the bits of the scene alone, while others are reset and fall asleep") {
+TEST_CASE("copies on a device have the bits of the scene alone, while others are reset and fall asleep", "[process:kinds]") {
     const Watched watched;
     const Scene scene = tests::heap(8);
     const Settings light{.sleep_speed = 0.3f, .sleep_time = 0.1f};

@@ -22,7 +22,7 @@ std::unique_ptr<DeviceRunner> runner_on(const Watched& watched) {
 }  // namespace
 
 TEST_CASE("a device whose queue only computes simulates with the bits of the CPU, and canvases say what draws instead",
-          "[stages][vulkan]") {
+          "[stages][vulkan][process:runs]") {
     const Watched watched({.without_graphics = true});
     const Scene scene = tests::museum(60);
     World cpu(scene, {}, 2), there(scene, {}, runner_on(watched));
@@ -34,7 +34,7 @@ TEST_CASE("a device whose queue only computes simulates with the bits of the CPU
 }
 
 TEST_CASE("a step that takes long is submitted in pieces, with the same bits, overflowing lists and times of its stages",
-          "[stages][vulkan]") {
+          "[stages][vulkan][process:runs]") {
     const bool timed = GENERATE(false, true);
     CAPTURE(timed);
     const Watched watched;
@@ -60,7 +60,8 @@ TEST_CASE("a step that takes long is submitted in pieces, with the same bits, ov
 }
 
 // A device may have room for 65,535 workgroups along an axis, which is few for a million bodies.
-TEST_CASE("dispatches of more workgroups than one axis has room for give the same bits in every stage", "[stages][vulkan]") {
+TEST_CASE("dispatches of more workgroups than one axis has room for give the same bits in every stage",
+          "[stages][vulkan][process:runs]") {
     const std::uint32_t most_groups = GENERATE(1, 3);
     CAPTURE(most_groups);
     const Watched watched({.most_groups = most_groups});
@@ -95,7 +96,7 @@ TEST_CASE("dispatches of more workgroups than one axis has room for give the sam
 }
 
 TEST_CASE("actions and edits of parameters between steps reach the device with the step, in every way of running steps",
-          "[stages][vulkan]") {
+          "[stages][vulkan][process:runs]") {
     const bool staged = GENERATE(false, true);
     CAPTURE(staged);
     const Watched watched({.staged = staged});
@@ -112,7 +113,8 @@ TEST_CASE("actions and edits of parameters between steps reach the device with t
     CHECK(there.state_hash() == cpu.state_hash());
 }
 
-TEST_CASE("a table that a device cannot allocate at once is refused with the limit and with what would fit", "[stages][vulkan]") {
+TEST_CASE("a table that a device cannot allocate at once is refused with the limit and with what would fit",
+          "[stages][vulkan][process:runs]") {
     const Watched watched({.largest_buffer = 40'000});
     const Scene scene = tests::packed(2000);
     CHECK_THROWS_WITH(World(scene, {}, runner_on(watched)),

@@ -35,7 +35,7 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, int ranks, i
     const std::vector<std::uint64_t> expected = hashes_of(alone, steps, built.before_step);
     // One after the other, and kept to the end: drivers are loaded once.
     std::vector<std::unique_ptr<Watched>> devices;
-    for (int r = 0; r < ranks; ++r) devices.push_back(std::make_unique<Watched>());
+    for (int r = 0; r < ranks; ++r) devices.push_back(std::make_unique<Watched>(r));
     std::vector<std::vector<std::uint64_t>> seen(static_cast<std::size_t>(ranks));
     std::vector<Statistics> statistics(seen.size());
     run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
@@ -58,30 +58,32 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, int ranks, i
 
 }  // namespace
 
-TEST_CASE("a pile on the devices of several ranks moves as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("a pile on the devices of several ranks moves as on one CPU", "[vulkan][ranks][process:ranks]") {
     agrees("pile", 120, 60, 1);
     agrees("pile", 120, 100, 2);
     agrees("pile", 200, 60, 3);
 }
 
-TEST_CASE("a rank on a CPU among ranks on devices gives the same bits", "[vulkan][ranks]") {
+TEST_CASE("a rank on a CPU among ranks on devices gives the same bits", "[vulkan][ranks][process:ranks]") {
     agrees("mix", 100, 60, 3, 1);
 }
 
-TEST_CASE("stacks, compounds, meshes, what sleeps and what is fast on devices of ranks move as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("stacks, compounds, meshes, what sleeps and what is fast on devices of ranks move as on one CPU",
+          "[vulkan][ranks][process:ranks]") {
     const auto [name, bodies, steps] = GENERATE(
         table<std::string, std::size_t, int>({{"stack", 0, 40}, {"assortment", 60, 60}, {"mesh", 40, 40}, {"dominoes", 20, 60}}));
     agrees(name, bodies, steps, 2);
 }
 
-TEST_CASE("joints, vehicles, what breaks, and what comes and goes on devices of ranks move as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("joints, vehicles, what breaks, and what comes and goes on devices of ranks move as on one CPU",
+          "[vulkan][ranks][process:ranks]") {
     const auto [name, bodies, steps] = GENERATE(table<std::string, std::size_t, int>(
         {{"ragdolls", 20, 40}, {"wrecking", 40, 60}, {"cars", 6, 30}, {"shatter", 30, 50}, {"fountain", 60, 60}}));
     agrees(name, bodies, steps, 2);
 }
 
 // SCREE_PROGRAMS=1000 runs a tenth of so many, which take longest of all, from SCREE_PROGRAMS_FROM on, without validation.
-TEST_CASE("random programs give the same bits on the devices of two ranks as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("random programs give the same bits on the devices of two ranks as on one CPU", "[vulkan][ranks][process:ranks]") {
     const char *count = std::getenv("SCREE_PROGRAMS"), *from = std::getenv("SCREE_PROGRAMS_FROM");
     std::vector<std::unique_ptr<Watched>> watched;
     std::vector<std::shared_ptr<host::Device>> devices;
@@ -89,7 +91,7 @@ TEST_CASE("random programs give the same bits on the devices of two ranks as on 
         if (count) {
             devices.push_back(host::Device::open({}));
         } else {
-            watched.push_back(std::make_unique<Watched>());
+            watched.push_back(std::make_unique<Watched>(r));
             devices.push_back(watched.back()->device);
         }
     }

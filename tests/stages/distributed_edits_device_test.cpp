@@ -15,7 +15,7 @@ namespace {
 
 void agree_on_devices(const Scene& scene, const tests::TellingScript& script) {
     std::vector<std::unique_ptr<Watched>> devices;  // one after the other: drivers are loaded once
-    for (int r = 0; r < 2; ++r) devices.push_back(std::make_unique<Watched>());
+    for (int r = 0; r < 2; ++r) devices.push_back(std::make_unique<Watched>(r));
     const std::vector<tests::Lines> told = tests::told_by_ranks(2, scene, script, [&](const std::shared_ptr<Exchange>& exchange) {
         return make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]->device);
     });
@@ -28,15 +28,15 @@ void agree_on_devices(const tests::Ownerless& one) {
 
 }  // namespace
 
-TEST_CASE("joints of bodies that have broken are told by ranks on devices as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("joints of bodies that have broken are told by ranks on devices as on one CPU", "[vulkan][ranks][process:shares]") {
     agree_on_devices(tests::joints_of_broken_bodies());
 }
 
-TEST_CASE("a vehicle whose chassis has broken is told by ranks on devices as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("a vehicle whose chassis has broken is told by ranks on devices as on one CPU", "[vulkan][ranks][process:shares]") {
     agree_on_devices(tests::broken_vehicle());
 }
 
-TEST_CASE("springs of joints of several ranks are set on their devices as on one CPU", "[vulkan][ranks]") {
+TEST_CASE("springs of joints of several ranks are set on their devices as on one CPU", "[vulkan][ranks][process:shares]") {
     agree_on_devices(tests::pairs_on_springs(6), [](World& world) {
         world.step(5);
         for (const std::size_t joint : {4, 1}) world.set_spring(joint, JointAxis::x, {.stiffness = 20000, .rest = 0.5f});
@@ -47,7 +47,8 @@ TEST_CASE("springs of joints of several ranks are set on their devices as on one
 
 // The first rope was taut and is slack: its record stays as it is when the new joint comes, and is then an old one on the device
 // of the other rank, whose bodies come over.
-TEST_CASE("a joint that unites blocks of two ranks leaves the joints of both as they are on devices", "[vulkan][ranks]") {
+TEST_CASE("a joint that unites blocks of two ranks leaves the joints of both as they are on devices",
+          "[vulkan][ranks][process:shares]") {
     Scene scene;
     scene.gravity = vec3(0);
     for (std::size_t k = 0; k < 6; ++k) {

@@ -9,6 +9,7 @@
 #include "compute/scene.h"
 #include "compute/step/stage_fusion.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -16,23 +17,16 @@ using namespace scree;
 namespace {
 
 struct Both {
-    std::shared_ptr<host::Device> device;
+    const Watched watched;
     World here, there;
     const DeviceRunner& runner;
 
-    static std::shared_ptr<host::Device> watched() {
-        host::DeviceOptions options;
-        options.validation = true;
-        return host::Device::open(options);
-    }
-    explicit Both(const Scene& scene, const Settings& settings = {}, std::shared_ptr<host::Device> on = watched())
-        : device(on),
+    template <class Which = int>  // an int, or options of a device, as of Watched
+    explicit Both(const Scene& scene, const Settings& settings = {}, const Which& which = 0)
+        : watched(which),
           here(scene, settings, 1),
-          there(scene, settings, make_device_runner(std::move(on))),
+          there(scene, settings, make_device_runner(watched.device)),
           runner(dynamic_cast<const DeviceRunner&>(there.runner())) {}
-    ~Both() {
-        for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
-    }
     void step(int steps, const std::function<void(World&, int)>& before = {}) {
         for (int i = 0; i < steps; ++i) {
             for (World* world : {&here, &there}) {
@@ -89,7 +83,7 @@ void require_fused(const Scene& scene, int steps, const Settings& settings = {})
 
 }  // namespace
 
-TEST_CASE("a small world's stages run as one, with the bits of the CPU path") {
+TEST_CASE("a small world's stages run as one, with the bits of the CPU path", "[process:stages]") {
     SECTION("boxes") {
         require_fused(boxes(60), 250);
     }
@@ -112,7 +106,7 @@ TEST_CASE("a small world's stages run as one, with the bits of the CPU path") {
     }
 }
 
-TEST_CASE("bodies of a small world break with the bits of the CPU path") {
+TEST_CASE("bodies of a small world break with the bits of the CPU path", "[process:stages]") {
     Both both(breaking());
     REQUIRE(both.runner.is_fused());
     both.step(120);
@@ -120,7 +114,7 @@ TEST_CASE("bodies of a small world break with the bits of the CPU path") {
     REQUIRE(both.runner.is_fused());
 }
 
-TEST_CASE("bodies of a small world are held and pushed with the bits of the CPU path") {
+TEST_CASE("bodies of a small world are held and pushed with the bits of the CPU path", "[process:stages]") {
     Both both(tests::heap(30));
     both.step(150, [](World& world, int i) {
         if (i == 20) world.grip(5, vec3(0.1f, 0, 0), vec3(0, 2, 0));
@@ -131,7 +125,7 @@ TEST_CASE("bodies of a small world are held and pushed with the bits of the CPU 
     REQUIRE(both.runner.is_fused());
 }
 
-TEST_CASE("a world that grows large goes over to stages of their own, with the same bits") {
+TEST_CASE("a world that grows large goes over to stages of their own, with the same bits", "[process:stages]") {
     Settings tiny;
     tiny.pairs_at_first = tiny.contacts_at_first = 1;
     Both both(tests::heap(400), tiny);
@@ -141,21 +135,22 @@ TEST_CASE("a world that grows large goes over to stages of their own, with the s
     REQUIRE(both.there.buffer_growths() > 3);
 }
 
-TEST_CASE("small worlds on a device without texels, or whose tables are found by address, have the same bits") {
+TEST_CASE("small worlds on a device without texels, or whose tables are found by address, have the same bits",
+          "[process:stages]") {
     for (const bool far : {false, true}) {
         host::DeviceOptions options;
-        options.validation = true;
         options.without_texels = !far;
         options.largest_binding = far ? 1024 : 0;
-        Both both(tests::heap(40), {}, host::Device::open(options));
+        Both both(tests::heap(40), {}, options);
         REQUIRE(both.runner.reach() == (far ? host::Reach::far : host::Reach::bound));
         both.step(60);
         REQUIRE(both.runner.is_fused());
     }
 }
 
-TEST_CASE("stages are timed when that is asked for, fused ones under their own name") {
-    World world(boxes(20), {}, make_device_runner(Both::watched()));
+TEST_CASE("stages are timed when that is asked for, fused ones under their own name", "[process:stages]") {
+    const Watched watched;
+    World world(boxes(20), {}, make_device_runner(watched.device));
     const auto time_of = [&](const std::string& name) {
         const StageTimes times = world.last_stage_times();
         const auto found = std::find_if(times.begin(), times.end(), [&](const auto& each) { return each.first == name; });
@@ -169,7 +164,7 @@ TEST_CASE("stages are timed when that is asked for, fused ones under their own n
     REQUIRE(time_of("substeps") > 0);
 }
 
-TEST_CASE("a fused stage does stages of the plan, once each") {
+TEST_CASE("a fused stage does stages of the plan, once each", "[process:stages]") {
     physics::Parameters parameters{};
     parameters.contact_capacity = 100;
     for (const bool everything : {false, true}) {

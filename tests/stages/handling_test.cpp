@@ -5,18 +5,12 @@
 #include "compute/device/lockstep.h"
 #include "compute/step/state_editor.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
 
 namespace {
-
-std::shared_ptr<host::Device> watched_device() {
-    host::DeviceOptions options;
-    options.validation = true;
-    options.on_message = [](const std::string& message) { FAIL_CHECK(message); };
-    return host::Device::open(options);
-}
 
 void require_equal(const LockstepResult& result) {
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
@@ -80,8 +74,9 @@ void act(World& world, std::size_t& grip) {
 
 }  // namespace
 
-TEST_CASE("every stage gives the same bits on both processors while bodies are held") {
-    const auto device = watched_device();
+TEST_CASE("every stage gives the same bits on both processors while bodies are held", "[process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Lockstep lockstep(tests::heap(60), {}, device, 1);
     for (int step = 0; step < 60; ++step) {
         lockstep.change([&](State& state) {
@@ -97,8 +92,10 @@ TEST_CASE("every stage gives the same bits on both processors while bodies are h
     }
 }
 
-TEST_CASE("every stage gives the same bits on both processors after the dials were turned and bodies were added") {
-    const auto device = watched_device();
+TEST_CASE("every stage gives the same bits on both processors after the dials were turned and bodies were added",
+          "[process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Settings settings;
     Lockstep lockstep(tests::heap(60), settings, device, 1);
     for (int step = 0; step < 60; ++step) {
@@ -120,8 +117,10 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
     }
 }
 
-TEST_CASE("a world that a user plays with has the same bits on both processors, whatever room its buffers begin with") {
-    const auto device = watched_device();
+TEST_CASE("a world that a user plays with has the same bits on both processors, whatever room its buffers begin with",
+          "[process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Settings tiny;
     tiny.pairs_at_first = 1;
     tiny.contacts_at_first = 1;

@@ -9,6 +9,7 @@
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "shaders/physics/solve/joint_block.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/jointed.h"
 
 using namespace scree;
@@ -19,7 +20,8 @@ using tests::spokes;
 namespace {
 
 void require_equal(const Scene& scene, int steps) {
-    Lockstep lockstep(scene, {}, host::Device::open(), 2);
+    const Watched watched;
+    Lockstep lockstep(scene, {}, watched.device, 2);
     for (int i = 0; i < steps && lockstep.step(); ++i) continue;
     const LockstepResult& result = lockstep.result();
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
@@ -34,7 +36,8 @@ std::uint32_t rounds_at_once(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("joints that entangle, more than a device's loops have rounds for, give the same bits on both processors") {
+TEST_CASE("joints that entangle, more than a device's loops have rounds for, give the same bits on both processors",
+          "[process:kinds]") {
     // Lavapipe ends a shader's loops after 65,535 iterations in all.
     REQUIRE(rounds_at_once(all_kinds()) == physics::JOINT_ROUNDS);
     REQUIRE(rounds_at_once(spokes()) == physics::JOINT_ROUNDS);
@@ -43,10 +46,9 @@ TEST_CASE("joints that entangle, more than a device's loops have rounds for, giv
     require_equal(entangled(), 3);
 }
 
-TEST_CASE("joints of every kind give the same bits on both processors, and validation stays silent") {
-    host::DeviceOptions options;
-    options.validation = true;
-    const auto device = host::Device::open(options);
+TEST_CASE("joints of every kind give the same bits on both processors, and validation stays silent", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Settings settings;
     settings.sleep_time = 0.2f;
     Lockstep lockstep(all_kinds(), settings, device, 2);
@@ -55,21 +57,18 @@ TEST_CASE("joints of every kind give the same bits on both processors, and valid
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     CHECK(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
-TEST_CASE("joints that turn by several turns give the same bits on both processors") {
+TEST_CASE("joints that turn by several turns give the same bits on both processors", "[process:kinds]") {
     require_equal(tests::turning(), 40);
 }
 
-TEST_CASE("joints that come and go while a world runs give the same bits on both processors") {
-    host::DeviceOptions options;
-    options.validation = true;
-    options.on_message = [](const std::string& message) { FAIL_CHECK(message); };
+TEST_CASE("joints that come and go while a world runs give the same bits on both processors", "[process:kinds]") {
+    const Watched watched;
     Scene bare = all_kinds();
     const std::vector<Joint> joints = bare.joints;
     bare.joints.clear();
-    World cpu(bare, {}, 2), there(bare, {}, make_device_runner(host::Device::open(options)));
+    World cpu(bare, {}, 2), there(bare, {}, make_device_runner(watched.device));
     for (int step = 0; step < 30; ++step) {
         for (World* world : {&cpu, &there}) {
             // No joints, then all; later every second one is removed, and two chains are joined in place.

@@ -6,6 +6,7 @@
 #include "host/vulkan/device.h"
 #include "tests/oracle/joint_judge.h"
 #include "tests/oracle/random_joints.h"
+#include "tests/stages/watched_device.h"
 
 using namespace scree;
 using namespace scree::oracle;
@@ -58,10 +59,11 @@ Blocks three_of_each() {
 
 }  // namespace
 
-TEST_CASE("oracle: the joint solver on the device agrees with the dense solution", "[oracle][vulkan]") {
+TEST_CASE("oracle: the joint solver on the device agrees with the dense solution", "[oracle][vulkan][process:kinds]") {
     const Blocks blocks = three_of_each();
     const Settings settings = joint_settings();
-    DeviceRunner runner(host::Device::open({}));
+    const Watched watched;
+    DeviceRunner runner(watched.device);
     State state(checked(blocks.all), settings, runner.group_size(), runner.in_place());
     runner.attach(state);
     const std::vector<Stage> stages = plan(settings.substeps, state.features());

@@ -50,7 +50,8 @@ std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int st
 
 }  // namespace
 
-TEST_CASE("tables longer than a binding are found by address, from the start or once they have grown, with the same bits") {
+TEST_CASE("tables longer than a binding are found by address, from the start or once they have grown, with the same bits",
+          "[process:stages]") {
     Settings small;
     small.pairs_at_first = small.contacts_at_first = 8;
     const bool without_texels = GENERATE(false, true);
@@ -67,12 +68,12 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
     }
 }
 
-TEST_CASE("every stage gives the same bits on both processors where tables are not read as texels") {
+TEST_CASE("every stage gives the same bits on both processors where tables are not read as texels", "[process:stages]") {
     const Watched watched(limited_to(0, /* without_texels */ true));
     REQUIRE(contacts_walked(tests::packed(300), watched, 10) > 300);
 }
 
-TEST_CASE("every stage gives the same bits on both processors, whatever the number of bodies") {
+TEST_CASE("every stage gives the same bits on both processors, whatever the number of bodies", "[process:stages]") {
     const Watched watched;
     for (const unsigned bodies : {0u, 1u, 2u, 126u, 127u, 128u, 129u, 1234u}) {
         CAPTURE(bodies);
@@ -82,12 +83,12 @@ TEST_CASE("every stage gives the same bits on both processors, whatever the numb
     }
 }
 
-TEST_CASE("every stage gives the same bits on both processors, even of a scene without a body") {
+TEST_CASE("every stage gives the same bits on both processors, even of a scene without a body", "[process:stages]") {
     const Watched watched;
     REQUIRE(contacts_walked({}, watched, 3) == 0);
 }
 
-TEST_CASE("every stage gives the same bits on both processors, whatever the number of contacts") {
+TEST_CASE("every stage gives the same bits on both processors, whatever the number of contacts", "[process:stages]") {
     const Watched watched;
     for (const unsigned bodies : {1u, 2u, 3u, 63u, 64u, 65u, 127u, 128u, 129u, 255u, 256u, 257u}) {
         CAPTURE(bodies);
@@ -95,7 +96,7 @@ TEST_CASE("every stage gives the same bits on both processors, whatever the numb
     }
 }
 
-TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 substeps") {
+TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 substeps", "[process:stages]") {
     const Watched watched;
     for (const int substeps : {1, 3, 16}) {
         CAPTURE(substeps);
@@ -105,7 +106,8 @@ TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 s
     }
 }
 
-TEST_CASE("every stage gives the same bits on both processors whatever contacts of the scene there cannot be") {
+TEST_CASE("every stage gives the same bits on both processors whatever contacts of the scene there cannot be",
+          "[process:stages]") {
     const Watched watched;
     Scene boxes;
     boxes.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
@@ -160,7 +162,7 @@ Scene plate_under_balls(int edge) {
 }  // namespace
 
 // Lengths about those of the parts in which workgroups sort lists (shaders/stages/lib/sort.glsl): 1, 32, 1,024 items.
-TEST_CASE("the contacts of a plate under few balls and thousands are put in one order on both processors") {
+TEST_CASE("the contacts of a plate under few balls and thousands are put in one order on both processors", "[process:stages]") {
     const Watched watched;
     for (const int edge : {1, 5, 6, 8, 31, 32, 33, 46, 70}) {
         CAPTURE(edge);
@@ -178,7 +180,7 @@ TEST_CASE("the contacts of a plate under few balls and thousands are put in one 
 }
 
 // Lavapipe ends a shader's loops after 65,535 rounds in all.
-TEST_CASE("a plate that bears thirty thousand balls has the same bits on both processors") {
+TEST_CASE("a plate that bears thirty thousand balls has the same bits on both processors", "[process:stages]") {
     const Watched watched;
     const Scene scene = plate_under_balls(174);
     World here(scene, {}, 2), there(scene, {}, std::make_unique<DeviceRunner>(watched.device));
@@ -188,7 +190,8 @@ TEST_CASE("a plate that bears thirty thousand balls has the same bits on both pr
     CHECK(there.state_hash() == here.state_hash());
 }
 
-TEST_CASE("a plate that bears more balls than a software device can do is refused by name, not simulated wrongly") {
+TEST_CASE("a plate that bears more balls than a software device can do is refused by name, not simulated wrongly",
+          "[process:stages]") {
     const Watched watched;
     if (!watched.device->report().is_processor) return;
     World too_many(plate_under_balls(245), {}, std::make_unique<DeviceRunner>(watched.device));
@@ -196,7 +199,7 @@ TEST_CASE("a plate that bears more balls than a software device can do is refuse
                       Catch::Contains("a body has 60026 contacts and joints") && Catch::Contains("--backend cpu"));
 }
 
-TEST_CASE("a cell with thousands of bodies has the same bits on both processors") {
+TEST_CASE("a cell with thousands of bodies has the same bits on both processors", "[process:stages]") {
     const Watched watched;
     Scene scene;
     scene.bodies.resize(5001);
@@ -213,7 +216,7 @@ TEST_CASE("a cell with thousands of bodies has the same bits on both processors"
     CHECK(there.state_hash() == here.state_hash());
 }
 
-TEST_CASE("both processors stop fast bodies alike") {
+TEST_CASE("both processors stop fast bodies alike", "[process:stages]") {
     const Watched watched;
     for (const float faster : {10.0f, 60.0f}) {
         Scene scene = tests::swarm(150, 0.5f);
@@ -236,7 +239,7 @@ TEST_CASE("both processors stop fast bodies alike") {
     }
 }
 
-TEST_CASE("both processors grow their buffers alike") {
+TEST_CASE("both processors grow their buffers alike", "[process:stages]") {
     const Watched watched;
     Settings tiny;
     tiny.pairs_at_first = 1;
@@ -255,7 +258,7 @@ TEST_CASE("both processors grow their buffers alike") {
     REQUIRE(cramped.statistics().points == roomy.statistics().points);
 }
 
-TEST_CASE("a single bit that differs is found, with its stage, buffer and element") {
+TEST_CASE("a single bit that differs is found, with its stage, buffer and element", "[process:stages]") {
     const Watched watched;
     Lockstep lockstep(tests::heap(20), {}, watched.device, 1);
     REQUIRE(lockstep.step());
@@ -271,7 +274,7 @@ TEST_CASE("a single bit that differs is found, with its stage, buffer and elemen
     REQUIRE_THAT(lockstep.result().detail, Catch::StartsWith("byte 24: cpu 0x"));
 }
 
-TEST_CASE("what acts from outside acts alike on both processors") {
+TEST_CASE("what acts from outside acts alike on both processors", "[process:stages]") {
     const Watched watched;
     World cpu(tests::heap(40), {}, 1);
     World device(tests::heap(40), {}, make_device_runner(watched.device));

@@ -5,22 +5,25 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/belts.h"
 #include "tests/world/late_restitution.h"
 
 using namespace scree;
 
-TEST_CASE("every stage gives the same bits on both processors for materials, sensors and explicit masses", "[vulkan]") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("every stage gives the same bits on both processors for materials, sensors and explicit masses",
+          "[vulkan][process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const LockstepResult result = compare_in_lockstep(tests::belts(60), {}, device, 1, 90);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
-TEST_CASE("every stage gives the same bits on both processors in wind and water", "[vulkan]") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("every stage gives the same bits on both processors in wind and water", "[vulkan][process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Scene scene = tests::belts(40);
     scene.fields = {.wind = Wind{.velocity = {4, 0, 1}},
                     .water = Water{.offset = 0.4f, .velocity = {0.3f, 0, 0}},
@@ -29,13 +32,12 @@ TEST_CASE("every stage gives the same bits on both processors in wind and water"
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
 TEST_CASE("a device gives the bits and the events of the CPU while materials change and kinematic bodies move to targets",
-          "[vulkan]") {
-    const auto device = host::Device::open(
-        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+          "[vulkan][process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Scene scene = tests::belts(30);
     for (Body& body : scene.bodies)  // none at first
         if (body.motion == Motion::dynamic) set_material(body, {});
@@ -72,9 +74,9 @@ TEST_CASE("a device gives the bits and the events of the CPU while materials cha
 }
 
 TEST_CASE("restitution that comes and goes gives a device the bits of the CPU, also through checkpoints and in other rows",
-          "[vulkan]") {
-    const auto device = host::Device::open(
-        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+          "[vulkan][process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::heap_without_restitution();
     World here(scene, {}, 1), there(scene, {}, make_device_runner(device)), moved(scene, {}, make_device_runner(device));
     const std::vector<std::uint64_t> expected = tests::hashes_with_late_restitution(here);

@@ -6,6 +6,7 @@
 #include "compute/device/lockstep.h"
 #include "compute/step/state_editor.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/feet.h"
 
 using namespace scree;
@@ -56,8 +57,9 @@ Scene rain_on_hills() {
 
 }  // namespace
 
-TEST_CASE("a compound that is added while others lie on a mesh gives the same bits on both processors") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("a compound that is added while others lie on a mesh gives the same bits on both processors", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Scene scene;
     scene.bodies.push_back({.motion = Motion::fixed, .shape = hills(6)});
     for (int k = 0; k < 6; ++k)
@@ -85,20 +87,20 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     }
 }
 
-TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const LockstepResult result = compare_in_lockstep(rain_on_hills(), {}, device, 1, 60);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
-TEST_CASE("bodies in several contacts with another give the same bits on both processors in every stage") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("bodies in several contacts with another give the same bits on both processors in every stage", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     const LockstepResult result = compare_in_lockstep(tests::what_has_feet(7), {}, device, 1, 30);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }

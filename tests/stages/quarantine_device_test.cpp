@@ -22,7 +22,7 @@ std::unique_ptr<Runner> tearing(Arguments&&... arguments) {
 
 }  // namespace
 
-TEST_CASE("a quarantine has the same bits on a device", "[vulkan]") {
+TEST_CASE("a quarantine has the same bits on a device", "[vulkan][process:runs]") {
     Scene scene;
     scene.bodies.push_back({.shape = Box{vec3(0.5f)}, .position = {0.8f, 0.51f, 0}});
     scene.bodies.push_back({.shape = Box{{0.6f, 0.15f, 0.4f}}, .position = {2.4f, 0.16f, 0}});

@@ -11,7 +11,7 @@
 
 using namespace scree;
 
-TEST_CASE("random programs give the same bits on a device as on the CPU", "[vulkan]") {
+TEST_CASE("random programs give the same bits on a device as on the CPU", "[vulkan][process:runs]") {
     const char *count = std::getenv("SCREE_PROGRAMS"), *from = std::getenv("SCREE_PROGRAMS_FROM");
     const std::optional<Watched> watched = count ? std::nullopt : std::make_optional<Watched>();
     const std::shared_ptr<host::Device> device = watched ? watched->device : host::Device::open({});

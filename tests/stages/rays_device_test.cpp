@@ -90,7 +90,8 @@ std::size_t require_equal(const World& cpu, const World& there, const std::vecto
 
 }  // namespace
 
-TEST_CASE("rays on a device meet what they meet on the CPU, to the bit, after steps, edits and breaking", "[vulkan]") {
+TEST_CASE("rays on a device meet what they meet on the CPU, to the bit, after steps, edits and breaking",
+          "[vulkan][process:runs]") {
     Watched watched;
     Scene scene = tests::museum(120);
     Body sensor;
@@ -128,7 +129,7 @@ TEST_CASE("rays on a device meet what they meet on the CPU, to the bit, after st
     REQUIRE(hits > 4000);
 }
 
-TEST_CASE("rays on a device meet every shape, and nothing in an empty scene", "[vulkan]") {
+TEST_CASE("rays on a device meet every shape, and nothing in an empty scene", "[vulkan][process:runs]") {
     Watched watched;
     Scene scene;
     const std::vector<Shape> shapes{Sphere{0.5f},         Capsule{0.3f, 0.4f}, Box{vec3(0.4f, 0.3f, 0.5f)},
@@ -171,7 +172,7 @@ std::vector<RayQuery> rays_beside(std::size_t count, float apart) {
 
 }  // namespace
 
-TEST_CASE("a ray through more bodies than a device's thread may visit is cast to the end", "[vulkan]") {
+TEST_CASE("a ray through more bodies than a device's thread may visit is cast to the end", "[vulkan][process:runs]") {
     Watched watched;
     const Scene spheres = line_of(Sphere{0.01f}, 20000);
     World cpu(spheres, {}, 1);
@@ -201,7 +202,7 @@ TEST_CASE("a ray through more bodies than a device's thread may visit is cast to
     REQUIRE(require_equal(planes_on_cpu, planes_there.world, above) == 9 * 9000);
 }
 
-TEST_CASE("more hits than a device lists at once are listed all the same", "[vulkan]") {
+TEST_CASE("more hits than a device lists at once are listed all the same", "[vulkan][process:runs]") {
     Watched watched;
     const Scene scene = line_of(Sphere{0.02f}, 1500);
     World cpu(scene, {}, 2);
@@ -214,7 +215,7 @@ TEST_CASE("more hits than a device lists at once are listed all the same", "[vul
 }
 
 TEST_CASE("rays on a device follow bodies reordered in memory, buffers that grow, states brought back and quarantine",
-          "[vulkan]") {
+          "[vulkan][process:runs]") {
     Watched watched;
     Scene scene = tests::heap(300);
     for (const float x : {40.0f, 42.0f}) {
@@ -253,8 +254,9 @@ TEST_CASE("rays on a device follow bodies reordered in memory, buffers that grow
     REQUIRE(compare(7) > 100);
 }
 
-TEST_CASE("a device leaves few rays, and those of copies of a scene, to the host", "[vulkan]") {
-    const auto device = host::Device::open();
+TEST_CASE("a device leaves few rays, and those of copies of a scene, to the host", "[vulkan][process:runs]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     World world(tests::heap(50), {}, make_device_runner(device));
     REQUIRE_FALSE(world.runner().casts(1));
     auto made = std::make_unique<DeviceRunner>(device);

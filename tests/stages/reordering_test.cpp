@@ -11,15 +11,12 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
 
 namespace {
-
-std::shared_ptr<host::Device> watched() {
-    return host::Device::open({.which = "", .validation = true, .on_message = {}});
-}
 
 // A random permutation of all rows but those of fragments.
 std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
@@ -34,10 +31,11 @@ std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
 }
 
 // Returns the largest number of bodies asleep at once.
-std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, int steps, const Settings& settings = {}) {
+std::size_t check_shuffled(const Scene& given, int steps, const Settings& settings = {}) {
+    const Watched watched;
     const Scene scene = checked(given);
     World plain(scene, settings, 1);
-    Lockstep shaken(scene, settings, device, 1);
+    Lockstep shaken(scene, settings, watched.device, 1);
     std::mt19937 chance(3);
     std::size_t asleep = 0;
     for (int i = 0; i < steps; ++i) {
@@ -54,30 +52,28 @@ std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> dev
         REQUIRE(result.hash == plain.state_hash());
         asleep = std::max(asleep, plain.statistics().asleep);
     }
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
     return asleep;
 }
 
 }  // namespace
 
-TEST_CASE("a heap whose bodies change rows every few steps gives the same bits on both processors") {
-    check_shuffled(tests::heap(200), watched(), 60);
-    check_shuffled(tests::packed(300), watched(), 30);
+TEST_CASE("a heap whose bodies change rows every few steps gives the same bits on both processors", "[process:changes]") {
+    check_shuffled(tests::heap(200), 60);
+    check_shuffled(tests::packed(300), 30);
 }
 
-TEST_CASE("demos whose bodies change rows every few steps give the same bits on both processors") {
-    const auto device = watched();
+TEST_CASE("demos whose bodies change rows every few steps give the same bits on both processors", "[process:changes]") {
     for (const char* name : {"solids", "ragdolls", "cars", "terrain", "shatter", "wrecking"}) {
         INFO(name);
         const demos::Demo* demo = demos::find_demo(name);
         REQUIRE(demo != nullptr);
         demos::DemoOptions options;
         options.bodies = demo->takes_bodies ? 40 : 0;
-        check_shuffled(demos::build(*demo, options).scene, device, 12);
+        check_shuffled(demos::build(*demo, options).scene, 12);
     }
 }
 
-TEST_CASE("sleepers that change rows are struck and deserted with the same bits on both processors") {
+TEST_CASE("sleepers that change rows are struck and deserted with the same bits on both processors", "[process:changes]") {
     Settings light;
     light.sleep_time = 0.08f;
     light.sleep_speed = 0.2f;
@@ -88,16 +84,18 @@ TEST_CASE("sleepers that change rows are struck and deserted with the same bits 
         ball.position = vec3(0, 4, 0);
         ball.velocity = vec3(2, -5, 1);
         scene.bodies.push_back(ball);
-        REQUIRE(check_shuffled(scene, watched(), 50, light) > 0);
+        REQUIRE(check_shuffled(scene, 50, light) > 0);
     }
 }
 
-TEST_CASE("a world on a device is the same to the last bit where its bodies are put in order again and again") {
+TEST_CASE("a world on a device is the same to the last bit where its bodies are put in order again and again",
+          "[process:changes]") {
+    const Watched watched;
     const Scene scene = tests::heap(220);
-    World plain(scene, {}, 1), here(scene, {}, 1), there(scene, {}, make_device_runner(watched()));
+    World plain(scene, {}, 1), here(scene, {}, 1), there(scene, {}, make_device_runner(watched.device));
     Settings tiny;
     tiny.pairs_at_first = tiny.contacts_at_first = 1;
-    World cramped(scene, tiny, make_device_runner(watched()));
+    World cramped(scene, tiny, make_device_runner(watched.device));
     for (int i = 0; i < 80; ++i) {
         for (World* world : {&plain, &here, &there, &cramped}) {
             if (i % 20 == 3) world->apply_impulse(7, vec3(0, 300, 0));
@@ -115,8 +113,10 @@ TEST_CASE("a world on a device is the same to the last bit where its bodies are 
     REQUIRE(there.statistics().kinetic_energy == plain.statistics().kinetic_energy);
 }
 
-TEST_CASE("bodies of all kinds change rows on a device with the bits of a world that is left alone, and few bytes travel") {
-    const auto device = watched();
+TEST_CASE("bodies of all kinds change rows on a device with the bits of a world that is left alone, and few bytes travel",
+          "[process:changes]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     for (const char* name : {"solids", "ragdolls", "cars", "terrain", "shatter", "wrecking", "pile"}) {
         CAPTURE(name);
         const demos::Demo* demo = demos::find_demo(name);
@@ -138,5 +138,4 @@ TEST_CASE("bodies of all kinds change rows on a device with the bits of a world 
         CHECK(there.reorderings() == 4);
         CHECK(there.statistics().points == plain.statistics().points);
     }
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }

@@ -13,7 +13,8 @@
 
 using namespace scree;
 
-TEST_CASE("a world on a device goes back ten steps and forward again with the bits of the CPU", "[stages][vulkan]") {
+TEST_CASE("a world on a device goes back ten steps and forward again with the bits of the CPU",
+          "[stages][vulkan][process:runs]") {
     const bool staged = GENERATE(false, true);
     CAPTURE(staged);
     const Watched watched({.staged = staged});

@@ -7,12 +7,15 @@
 #include "compute/step/memory_traffic.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
 
-TEST_CASE("every stage gives the same bits on both processors for cylinders, cones and hulls among all other shapes") {
-    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+TEST_CASE("every stage gives the same bits on both processors for cylinders, cones and hulls among all other shapes",
+          "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     std::mt19937 chance(5);
     const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
     Scene scene;
@@ -39,11 +42,11 @@ TEST_CASE("every stage gives the same bits on both processors for cylinders, con
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
-TEST_CASE("hulls that touch in thousands of ways come out alike on both processors") {
-    const auto device = host::Device::open({.which = "", .validation = false, .on_message = {}});
+TEST_CASE("hulls that touch in thousands of ways come out alike on both processors", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     std::mt19937 chance(8);
     const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
     const auto any_turn = [&] { return vec4{any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)}; };
@@ -74,9 +77,9 @@ TEST_CASE("hulls that touch in thousands of ways come out alike on both processo
     }
 }
 
-TEST_CASE("a step is said to move as many bytes on the device as on the processor") {
-    host::DeviceOptions options;
-    const auto device = host::Device::open(options);
+TEST_CASE("a step is said to move as many bytes on the device as on the processor", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     for (const bool solids : {false, true}) {
         Scene scene = tests::packed(40);
         if (solids) scene.bodies.back().shape = Hull{.points = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};

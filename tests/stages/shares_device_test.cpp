@@ -29,7 +29,7 @@ template <class Work>
 void on_devices(int ranks, const Work& work) {
     // One after the other, and kept to the end: drivers are loaded once.
     std::vector<std::unique_ptr<Watched>> devices;
-    for (int r = 0; r < ranks; ++r) devices.push_back(std::make_unique<Watched>());
+    for (int r = 0; r < ranks; ++r) devices.push_back(std::make_unique<Watched>(r));
     run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
         work(exchange->rank(), make_distributed_runner(exchange, devices[static_cast<std::size_t>(exchange->rank())]->device));
     });
@@ -46,7 +46,8 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps) {
 
 }  // namespace
 
-TEST_CASE("devices of ranks hold shares of a world, whether it begins whole or one body after the other", "[vulkan][ranks]") {
+TEST_CASE("devices of ranks hold shares of a world, whether it begins whole or one body after the other",
+          "[vulkan][ranks][process:shares]") {
     const bool whole = GENERATE(true, false);
     const StreamedScene scene = streamed("mix", 240);
     World alone(scene.whole(), {}, make_reference_runner(1));
@@ -67,7 +68,7 @@ TEST_CASE("devices of ranks hold shares of a world, whether it begins whole or o
 }
 
 // Stones that slide pass from rank to rank and gather on one: rows are taken from bodies that have gone, and tables grow.
-TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulkan][ranks]") {
+TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulkan][ranks][process:shares]") {
     const StreamedScene scene = streamed("avalanche", 400);
     World alone(scene.whole(), {}, make_reference_runner(1));
     alone.step(200);
@@ -90,7 +91,7 @@ TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulk
 
 // Layers of balls that fly through the border between the ranks, one after the other: more become ghosts in one step than there
 // is room for, and later ones take the rows of those that have gone.
-TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan][ranks]") {
+TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan][ranks][process:shares]") {
     Scene scene;
     scene.gravity = vec3(0, -4, 0);
     Body floor;  // its parts lie behind the rows of bodies, and move when these grow
@@ -118,7 +119,7 @@ TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan]
     CHECK(seen[1] == expected);
 }
 
-TEST_CASE("shares on devices are whole for whoever looks, and saved in pieces", "[vulkan][ranks]") {
+TEST_CASE("shares on devices are whole for whoever looks, and saved in pieces", "[vulkan][ranks][process:shares]") {
     const StreamedScene scene = streamed("pile", 200);
     const auto act = [](World& world) {
         std::vector<float> values;

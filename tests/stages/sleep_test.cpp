@@ -75,7 +75,7 @@ Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, 
 
 }  // namespace
 
-TEST_CASE("bodies fall asleep and are struck with the same bits on both processors, whatever their number") {
+TEST_CASE("bodies fall asleep and are struck with the same bits on both processors, whatever their number", "[process:changes]") {
     const Watched watched;
     Settings light;  // sleepers
     light.sleep_time = 0.08f;
@@ -88,7 +88,7 @@ TEST_CASE("bodies fall asleep and are struck with the same bits on both processo
     }
 }
 
-TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both processors") {
+TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both processors", "[process:changes]") {
     const Watched watched;
     Settings light;
     light.sleep_time = 0.08f;
@@ -100,7 +100,7 @@ TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both
     }
 }
 
-TEST_CASE("both processors grow their buffers alike while bodies sleep and wake") {
+TEST_CASE("both processors grow their buffers alike while bodies sleep and wake", "[process:changes]") {
     const Watched watched;
     Settings tiny;
     tiny.pairs_at_first = 1;
@@ -111,7 +111,7 @@ TEST_CASE("both processors grow their buffers alike while bodies sleep and wake"
     REQUIRE(seen.woken > 10);
 }
 
-TEST_CASE("what the user asks of sleepers is done alike on both processors") {
+TEST_CASE("what the user asks of sleepers is done alike on both processors", "[process:changes]") {
     const Watched watched;
     Settings light;
     light.sleep_time = 0.1f;

@@ -6,13 +6,14 @@
 #include "compute/vehicle_presets.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/watched_device.h"
 
 using namespace scree;
 
-TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep give the same bits on both processors") {
-    host::DeviceOptions options;
-    options.validation = true;
-    const auto device = host::Device::open(options);
+TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep give the same bits on both processors",
+          "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
     Scene scene;
     Body ground;
     ground.motion = Motion::fixed;
@@ -34,10 +35,9 @@ TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep gi
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     CHECK(result.equal);
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
-TEST_CASE("a brake that is let go and pulled again gives the same bits on both processors") {
+TEST_CASE("a brake that is let go and pulled again gives the same bits on both processors", "[process:kinds]") {
     // Wheels that are not driven have no motor between: the CPU path went on adding the last change to its impulse.
     Scene scene;
     Body ground;
@@ -45,7 +45,8 @@ TEST_CASE("a brake that is let go and pulled again gives the same bits on both p
     ground.shape = Plane{};
     scene.bodies.push_back(ground);
     add_car(scene, {.speed = 1});
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(host::Device::open()));
+    const Watched watched;
+    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(watched.device));
     for (int step = 0; step < 40; ++step) {
         for (World* world : {&cpu, &there}) {
             if (step % 10 == 0) world->drive(0, {.brake = step % 20 == 0 ? 1.0f : 0.0f});

@@ -4,7 +4,7 @@
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
-#include "host/vulkan/device.h"
+#include "tests/stages/watched_device.h"
 
 using namespace scree;
 
@@ -17,38 +17,35 @@ demos::DemoScene small(const demos::Demo& demo) {
 }
 
 void check_lockstep(bool trial, bool takes_bodies) {
-    host::DeviceOptions options;
-    options.validation = true;
-    const auto device = host::Device::open(options);
+    const Watched watched;
     for (const demos::Demo& demo : demos::all_demos()) {
         if (demo.trial != trial || demo.takes_bodies != takes_bodies) continue;
         if (demo.name == std::string("rollmesh")) continue;  // its triangles are covered by other demos
         // Its joints are those of `chain`; lavapipe compiles its shaders for a minute.
         if (demo.name == std::string("capstan")) continue;
         if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and covered by other demos
-        const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
+        const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, watched.device, 1, 40);
         INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
                        << "], " << result.detail);
         CHECK(result.equal);
     }
-    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
 }  // namespace
 
-TEST_CASE("every demo gives the same bits on both processors, and validation stays silent") {
+TEST_CASE("every demo gives the same bits on both processors, and validation stays silent", "[process:demos]") {
     check_lockstep(false, false);
 }
 
-TEST_CASE("every demo of any size gives the same bits on both processors, and validation stays silent") {
+TEST_CASE("every demo of any size gives the same bits on both processors, and validation stays silent", "[process:demos]") {
     check_lockstep(false, true);
 }
 
-TEST_CASE("every trial gives the same bits on both processors, and validation stays silent") {
+TEST_CASE("every trial gives the same bits on both processors, and validation stays silent", "[process:demos]") {
     check_lockstep(true, false);
 }
 
-TEST_CASE("every trial of any size gives the same bits on both processors, and validation stays silent") {
+TEST_CASE("every trial of any size gives the same bits on both processors, and validation stays silent", "[process:demos]") {
     check_lockstep(true, true);
 }
 
