@@ -5,6 +5,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
@@ -47,7 +48,7 @@ TEST_CASE("a device gives the bits and the events of the CPU while bodies come, 
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::museum(30);
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(device));
     tests::Noise noise(4);
     std::vector<BodyHandle> alive;
     for (World* world : {&cpu, &there}) world->set_events({.contacts = true, .hit_speed = 0.5f, .breaks = true, .sleep = true});
@@ -86,7 +87,7 @@ TEST_CASE("a device gives the bits and the events of the CPU while bodies come, 
     }
     REQUIRE(events > 200);
     REQUIRE(there.save() == cpu.save());
-    World fresh(scene, {}, make_device_runner(device));
+    World fresh(scene, tests::coarse(), make_device_runner(device));
     fresh.restore(cpu.save());
     fresh.step(20);
     cpu.step(20);
@@ -97,7 +98,7 @@ TEST_CASE("a device gives the bits and the events of the CPU while bodies come, 
 TEST_CASE("a thousand bodies are added and removed in one upload of what changed", "[vulkan][process:changes]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    World there(tests::heap(1200), {}, make_device_runner(device));
+    World there(tests::heap(1200), tests::coarse(), make_device_runner(device));
     there.step(2);
     std::vector<Body> born;
     for (int i = 0; i < 1000; ++i) {
@@ -134,7 +135,7 @@ TEST_CASE("bodies are added on a device after the last one with a filter was rem
     scene.bodies.back().motion = Motion::fixed;
     for (int i = 0; i < 5; ++i) scene.bodies.push_back(body_at(Box{vec3(0.3f)}, {2.0f * static_cast<float>(i), 0.4f, 0}));
     scene.bodies.back().filter = Filter{2, 1, 0};
-    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(device));
+    World cpu(scene, tests::coarse(), 1), there(scene, tests::coarse(), make_device_runner(device));
     for (World* world : {&cpu, &there}) {
         world->step();
         world->remove_body(5);

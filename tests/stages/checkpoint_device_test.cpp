@@ -4,6 +4,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/museum.h"
 
 using namespace scree;
@@ -12,7 +13,7 @@ TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a 
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::museum(60);
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(device));
     const auto go_on = [](World& world, std::uint64_t steps) {
         while (world.steps() < steps) {
             tests::meddle(world);
@@ -33,7 +34,7 @@ TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a 
         REQUIRE(cpu.statistics().penetration_mean == there.statistics().penetration_mean);
         REQUIRE(go_on(cpu, moment + 30) == later);
         REQUIRE(go_on(there, moment + 30) == later);
-        World fresh(scene, {}, make_device_runner(device));
+        World fresh(scene, tests::coarse(), make_device_runner(device));
         fresh.restore(from_there);
         REQUIRE(go_on(fresh, moment + 30) == later);
         cpu.restore(here);
@@ -48,7 +49,7 @@ TEST_CASE("a device passes over steps in which all sleep, and goes on with the b
     scene.bodies[0].shape = Plane{};
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.bodies[i].position = vec3(0, static_cast<float>(i) - 0.5f, 0);
     const Watched watched;
-    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(watched.device));
+    World cpu(scene, tests::coarse(), 1), there(scene, tests::coarse(), make_device_runner(watched.device));
     for (World* world : {&cpu, &there}) {
         world->step(150);
         world->keep_state();

@@ -6,6 +6,7 @@
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
@@ -60,8 +61,8 @@ TEST_CASE("copies on a device have the bits of the scene alone, while others are
 TEST_CASE("everything breaks, is joined and driven in copies on a device as in the scene alone, and is reset", "[long]") {
     const Watched watched;
     const Scene scene = tests::museum(2);
-    World alone(scene, {}, 2);
-    World world(scene, {}, make_device_runner(watched.device), 2);
+    World alone(scene, tests::coarse(), 2);
+    World world(scene, tests::coarse(), make_device_runner(watched.device), 2);
     alone.step(24), world.step(24);
     REQUIRE(alone.statistics().broken > 0);
     REQUIRE(world.state_hashes() == std::vector<std::uint64_t>(2, alone.state_hash()));
@@ -69,7 +70,7 @@ TEST_CASE("everything breaks, is joined and driven in copies on a device as in t
     world.step(24);
     REQUIRE(world.state_hash_of(1) == alone.state_hash());
     const std::vector<std::byte> mark = world.save();
-    World other(scene, {}, make_reference_runner(1), 2);
+    World other(scene, tests::coarse(), make_reference_runner(1), 2);
     other.restore(mark);
     world.step(2), other.step(2);
     REQUIRE(world.state_hashes() == other.state_hashes());

@@ -8,6 +8,7 @@
 #include "demos/scenes/demos.h"
 #include "host/canvas/canvas.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
@@ -25,7 +26,7 @@ TEST_CASE("a device whose queue only computes simulates with the bits of the CPU
           "[stages][vulkan][process:runs]") {
     const Watched watched({.without_graphics = true});
     const Scene scene = tests::museum(60);
-    World cpu(scene, {}, 2), there(scene, {}, runner_on(watched));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), runner_on(watched));
     cpu.step(20);
     there.step(20);
     CHECK(there.state_hash() == cpu.state_hash());
@@ -39,11 +40,11 @@ TEST_CASE("a step that takes long is submitted in pieces, with the same bits, ov
     CAPTURE(timed);
     const Watched watched;
     const Scene scene = tests::museum(60);
-    World cpu(scene, {}, 2);
+    World cpu(scene, tests::coarse(), 2);
     auto runner = runner_on(watched);
     DeviceRunner& device = *runner;
     device.submit_within(1e-4);
-    World there(scene, {}, std::move(runner));
+    World there(scene, tests::coarse(), std::move(runner));
     there.set_profiling(timed);
     CHECK(device.submissions_of_a_step() == 1);
     for (const int steps : {1, 1, 30}) {
@@ -66,7 +67,7 @@ TEST_CASE("dispatches of more workgroups than one axis has room for give the sam
     CAPTURE(most_groups);
     const Watched watched({.most_groups = most_groups});
     const auto check = [&](const Scene& scene, int steps, std::size_t least_in_rows) {
-        Settings small;
+        Settings small = tests::coarse();
         small.pairs_at_first = small.contacts_at_first = 8;  // lists grow
         Lockstep lockstep(scene, small, watched.device, 1);
         for (int step = 0; step < steps; ++step) {
@@ -101,7 +102,7 @@ TEST_CASE("actions and edits of parameters between steps reach the device with t
     CAPTURE(staged);
     const Watched watched({.staged = staged});
     const Scene scene = tests::packed(40);
-    World cpu(scene, {}, 2), there(scene, {}, runner_on(watched));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), runner_on(watched));
     const std::size_t last = scene.bodies.size() - 1;
     for (World* world : {&cpu, &there}) {
         for (int k = 0; k < 12; ++k) {
@@ -117,6 +118,6 @@ TEST_CASE("a table that a device cannot allocate at once is refused with the lim
           "[stages][vulkan][process:runs]") {
     const Watched watched({.largest_buffer = 40'000});
     const Scene scene = tests::packed(2000);
-    CHECK_THROWS_WITH(World(scene, {}, runner_on(watched)),
+    CHECK_THROWS_WITH(World(scene, tests::coarse(), runner_on(watched)),
                       Catch::Contains("maxMemoryAllocationSize") && Catch::Contains("bodies like these would fit"));
 }

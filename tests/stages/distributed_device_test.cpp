@@ -12,6 +12,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/random_program.h"
 
 using namespace scree;
@@ -31,7 +32,7 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps, const demos::Scrip
 // `on_cpu`: a rank that has no device, among others that have one.
 void agrees(const std::string& demo, std::size_t bodies, int steps, int ranks, int on_cpu = -1) {
     const demos::DemoScene built = demos::build(*demos::find_demo(demo), {.bodies = bodies});
-    World alone(built.scene, {}, make_reference_runner(1));
+    World alone(built.scene, tests::coarse(), make_reference_runner(1));
     const std::vector<std::uint64_t> expected = hashes_of(alone, steps, built.before_step);
     // One after the other, and kept to the end: drivers are loaded once.
     std::vector<std::unique_ptr<Watched>> devices;
@@ -40,7 +41,7 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, int ranks, i
     std::vector<Statistics> statistics(seen.size());
     run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
         const auto rank = static_cast<std::size_t>(exchange->rank());
-        World world(built.scene, {},
+        World world(built.scene, tests::coarse(),
                     exchange->rank() == on_cpu ? make_distributed_runner(exchange, 1)
                                                : make_distributed_runner(exchange, devices[rank]->device));
         seen[rank] = hashes_of(world, steps, built.before_step);
@@ -59,7 +60,7 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, int ranks, i
 }  // namespace
 
 TEST_CASE("a pile on the devices of several ranks moves as on one CPU", "[vulkan][ranks][process:ranks]") {
-    agrees("pile", 120, 60, 1);
+    agrees("pile", 120, 30, 1);
     agrees("pile", 120, 100, 2);
     agrees("pile", 200, 60, 3);
 }

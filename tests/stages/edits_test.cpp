@@ -5,6 +5,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -51,7 +52,7 @@ TEST_CASE("an edit of a running world sends what changed, however large the worl
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = mixed(1200);
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(device));
     for (World* world : {&cpu, &there}) {
         world->step(3);
         // The first addition moves the parts up once, to leave rows for half as many bodies again.
@@ -75,7 +76,7 @@ TEST_CASE("bodies that are added one by one to a world without parts send themse
           "[process:changes]") {
     const Watched watched({.staged = true});
     const std::shared_ptr<host::Device>& device = watched.device;
-    World cpu(tests::heap(60), {}, 2), there(tests::heap(60), {}, make_device_runner(device));
+    World cpu(tests::heap(60), tests::coarse(), 2), there(tests::heap(60), tests::coarse(), make_device_runner(device));
     for (int k = 0; k < 50; ++k) {
         for (World* world : {&cpu, &there})
             REQUIRE(bytes_of_an_edit(*world, [&](World& w) { w.add_body(ball(static_cast<float>(k % 7))); }) < 1000);

@@ -6,6 +6,7 @@
 #include "compute/step/state_editor.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -77,7 +78,7 @@ void act(World& world, std::size_t& grip) {
 TEST_CASE("every stage gives the same bits on both processors while bodies are held", "[process:changes]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    Lockstep lockstep(tests::heap(60), {}, device, 1);
+    Lockstep lockstep(tests::heap(60), tests::coarse(), device, 1);
     for (int step = 0; step < 60; ++step) {
         lockstep.change([&](State& state) {
             physics::Parameters& p = state.fixed();
@@ -96,7 +97,7 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
           "[process:changes]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    Settings settings;
+    Settings settings = tests::coarse();
     Lockstep lockstep(tests::heap(60), settings, device, 1);
     for (int step = 0; step < 60; ++step) {
         if (step % 10 == 9) {
@@ -121,10 +122,10 @@ TEST_CASE("a world that a user plays with has the same bits on both processors, 
           "[process:changes]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    Settings tiny;
+    Settings tiny = tests::coarse();
     tiny.pairs_at_first = 1;
     tiny.contacts_at_first = 1;
-    World cpu(tests::heap(60), {}, 2), there(tests::heap(60), {}, make_device_runner(device));
+    World cpu(tests::heap(60), tests::coarse(), 2), there(tests::heap(60), tests::coarse(), make_device_runner(device));
     World cramped(tests::heap(60), tiny, make_device_runner(device));
     std::size_t grip = 0;
     for (int step = 0; step < 90; ++step) {

@@ -10,6 +10,7 @@
 #include "host/vulkan/device.h"
 #include "shaders/physics/solve/joint_block.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/jointed.h"
 
 using namespace scree;
@@ -21,7 +22,7 @@ namespace {
 
 void require_equal(const Scene& scene, int steps) {
     const Watched watched;
-    Lockstep lockstep(scene, {}, watched.device, 2);
+    Lockstep lockstep(scene, tests::coarse(), watched.device, 2);
     for (int i = 0; i < steps && lockstep.step(); ++i) continue;
     const LockstepResult& result = lockstep.result();
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
@@ -49,7 +50,7 @@ TEST_CASE("joints that entangle, more than a device's loops have rounds for, giv
 TEST_CASE("joints of every kind give the same bits on both processors, and validation stays silent", "[process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    Settings settings;
+    Settings settings = tests::coarse();
     settings.sleep_time = 0.2f;
     Lockstep lockstep(all_kinds(), settings, device, 2);
     for (int i = 0; i < 60 && lockstep.step(); ++i) continue;
@@ -68,7 +69,7 @@ TEST_CASE("joints that come and go while a world runs give the same bits on both
     Scene bare = all_kinds();
     const std::vector<Joint> joints = bare.joints;
     bare.joints.clear();
-    World cpu(bare, {}, 2), there(bare, {}, make_device_runner(watched.device));
+    World cpu(bare, tests::coarse(), 2), there(bare, tests::coarse(), make_device_runner(watched.device));
     for (int step = 0; step < 30; ++step) {
         for (World* world : {&cpu, &there}) {
             // No joints, then all; later every second one is removed, and two chains are joined in place.

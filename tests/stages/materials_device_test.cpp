@@ -7,6 +7,7 @@
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/belts.h"
+#include "tests/world/coarse.h"
 #include "tests/world/late_restitution.h"
 
 using namespace scree;
@@ -15,7 +16,7 @@ TEST_CASE("every stage gives the same bits on both processors for materials, sen
           "[vulkan][process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(tests::belts(60), {}, device, 1, 90);
+    const LockstepResult result = compare_in_lockstep(tests::belts(60), tests::coarse(), device, 1, 90);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
@@ -28,7 +29,7 @@ TEST_CASE("every stage gives the same bits on both processors in wind and water"
     scene.fields = {.wind = Wind{.velocity = {4, 0, 1}},
                     .water = Water{.offset = 0.4f, .velocity = {0.3f, 0, 0}},
                     .attractors = {{.position = {0, 3, 0}, .strength = 20}}};
-    const LockstepResult result = compare_in_lockstep(scene, {}, device, 1, 60);
+    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), device, 1, 60);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
@@ -44,7 +45,7 @@ TEST_CASE("a device gives the bits and the events of the CPU while materials cha
     set_material(scene.bodies[0], {});
     scene.bodies.push_back({.motion = Motion::kinematic, .shape = Box{vec3(0.3f)}, .position = {-1, 0.4f, 0}});
     const std::size_t hand = scene.bodies.size() - 1;
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(device));
     for (World* world : {&cpu, &there}) world->set_events({.contacts = true, .sensors = true});
     for (int i = 0; i < 12; ++i) {
         for (World* world : {&cpu, &there}) {
@@ -78,7 +79,8 @@ TEST_CASE("restitution that comes and goes gives a device the bits of the CPU, a
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
     const Scene scene = tests::heap_without_restitution();
-    World here(scene, {}, 1), there(scene, {}, make_device_runner(device)), moved(scene, {}, make_device_runner(device));
+    World here(scene, tests::coarse(), 1), there(scene, tests::coarse(), make_device_runner(device)),
+        moved(scene, tests::coarse(), make_device_runner(device));
     const std::vector<std::uint64_t> expected = tests::hashes_with_late_restitution(here);
     REQUIRE(tests::hashes_with_late_restitution(there) == expected);
     REQUIRE(tests::hashes_with_late_restitution(moved, [](World& world) {

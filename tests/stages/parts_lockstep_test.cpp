@@ -7,6 +7,7 @@
 #include "compute/step/state_editor.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/feet.h"
 
 using namespace scree;
@@ -65,7 +66,7 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     for (int k = 0; k < 6; ++k)
         scene.bodies.push_back(
             {.shape = hammer(), .position = {0.3f * static_cast<float>(k % 2), 0.8f + 0.3f * static_cast<float>(k), 0}});
-    Lockstep lockstep(scene, {}, device, 1);
+    Lockstep lockstep(scene, tests::coarse(), device, 1);
     const auto go = [&](int steps) {
         for (int step = 0; step < steps; ++step) {
             const bool equal = lockstep.step();
@@ -90,7 +91,7 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
 TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields", "[process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(rain_on_hills(), {}, device, 1, 60);
+    const LockstepResult result = compare_in_lockstep(rain_on_hills(), tests::coarse(), device, 1, 60);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
@@ -99,7 +100,7 @@ TEST_CASE("every stage gives the same bits on both processors for compounds, mes
 TEST_CASE("bodies in several contacts with another give the same bits on both processors in every stage", "[process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(tests::what_has_feet(7), {}, device, 1, 30);
+    const LockstepResult result = compare_in_lockstep(tests::what_has_feet(7), tests::coarse(), device, 1, 30);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);

@@ -7,6 +7,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/poisoned.h"
 
@@ -33,7 +34,8 @@ TEST_CASE("a quarantine has the same bits on a device", "[vulkan][process:runs]"
     scene.joints.push_back(slider);
     for (const Body& body : tests::heap(20).bodies) scene.bodies.push_back(body);
     Watched watched;
-    World device(scene, {}, tearing<DeviceRunner>(watched.device)), processor(scene, {}, tearing<ReferenceRunner>(1));
+    World device(scene, tests::coarse(), tearing<DeviceRunner>(watched.device)),
+        processor(scene, tests::coarse(), tearing<ReferenceRunner>(1));
     for (int step = 0; step < 40; ++step) {
         device.step();
         processor.step();
@@ -49,7 +51,7 @@ TEST_CASE("a quarantine has the same bits on a device", "[vulkan][process:runs]"
     CHECK(device.state_hash() == processor.state_hash());
     CHECK(device.quarantines().size() == 1);
     // Random program 3309: nobody had read the masses, so the host had none.
-    World unread(scene, {}, tearing<DeviceRunner>(watched.device));
+    World unread(scene, tests::coarse(), tearing<DeviceRunner>(watched.device));
     unread.step(40);
     unread.set_bodies(std::vector{BodyChange{.body = 1, .position = vec3(30, 5, 0)}});
     unread.step(20);

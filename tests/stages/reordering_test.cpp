@@ -12,6 +12,7 @@
 #include "demos/scenes/demos.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -31,7 +32,7 @@ std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
 }
 
 // Returns the largest number of bodies asleep at once.
-std::size_t check_shuffled(const Scene& given, int steps, const Settings& settings = {}) {
+std::size_t check_shuffled(const Scene& given, int steps, const Settings& settings = tests::coarse()) {
     const Watched watched;
     const Scene scene = checked(given);
     World plain(scene, settings, 1);
@@ -74,7 +75,7 @@ TEST_CASE("demos whose bodies change rows every few steps give the same bits on 
 }
 
 TEST_CASE("sleepers that change rows are struck and deserted with the same bits on both processors", "[process:changes]") {
-    Settings light;
+    Settings light = tests::coarse();
     light.sleep_time = 0.08f;
     light.sleep_speed = 0.2f;
     for (const int bodies : {60, 300}) {
@@ -92,8 +93,9 @@ TEST_CASE("a world on a device is the same to the last bit where its bodies are 
           "[process:changes]") {
     const Watched watched;
     const Scene scene = tests::heap(220);
-    World plain(scene, {}, 1), here(scene, {}, 1), there(scene, {}, make_device_runner(watched.device));
-    Settings tiny;
+    World plain(scene, tests::coarse(), 1), here(scene, tests::coarse(), 1),
+        there(scene, tests::coarse(), make_device_runner(watched.device));
+    Settings tiny = tests::coarse();
     tiny.pairs_at_first = tiny.contacts_at_first = 1;
     World cramped(scene, tiny, make_device_runner(watched.device));
     for (int i = 0; i < 80; ++i) {
@@ -124,7 +126,7 @@ TEST_CASE("bodies of all kinds change rows on a device with the bits of a world 
         demos::DemoOptions options;
         options.bodies = demo->takes_bodies ? 200 : 0;
         const Scene scene = demos::build(*demo, options).scene;
-        World plain(scene, {}, 2), there(scene, {}, make_device_runner(device));
+        World plain(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(device));
         for (int i = 0; i < 12; ++i) {
             const std::uint64_t before = there.runner().uploaded_bytes();
             if (i % 3 == 1) there.reorder();

@@ -8,6 +8,7 @@
 #include "compute/device/make_device_runner.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
@@ -19,7 +20,7 @@ TEST_CASE("a world on a device goes back ten steps and forward again with the bi
     CAPTURE(staged);
     const Watched watched({.staged = staged});
     const Scene scene = tests::museum(60);
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(watched.device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(watched.device));
     std::vector<std::uint64_t> hashes;
     const auto go_on = [&](World& world, std::uint64_t steps) {
         while (world.steps() < steps) {

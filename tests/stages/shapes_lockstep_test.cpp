@@ -8,6 +8,7 @@
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -38,7 +39,7 @@ TEST_CASE("every stage gives the same bits on both processors for cylinders, con
         body.orientation = {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)};
         body.velocity = {0, k % 7 == 0 ? -40.0f : -1.0f, 0};
     }
-    const LockstepResult result = compare_in_lockstep(scene, {}, device, 1, 40);
+    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), device, 1, 40);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);
@@ -70,7 +71,7 @@ TEST_CASE("hulls that touch in thousands of ways come out alike on both processo
             scene.bodies.push_back(first);
             scene.bodies.push_back(second);
         }
-        const LockstepResult result = compare_in_lockstep(scene, {}, device, 1, 1);
+        const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), device, 1, 1);
         INFO(corners << " corners: step " << result.step << ", stage " << result.stage << ", " << result.buffer << "["
                      << result.element << "], " << result.detail);
         REQUIRE(result.equal);
@@ -83,7 +84,7 @@ TEST_CASE("a step is said to move as many bytes on the device as on the processo
     for (const bool solids : {false, true}) {
         Scene scene = tests::packed(40);
         if (solids) scene.bodies.back().shape = Hull{.points = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
-        World there(scene, {}, make_device_runner(device)), here(scene, {}, 1);
+        World there(scene, tests::coarse(), make_device_runner(device)), here(scene, tests::coarse(), 1);
         there.step(3);
         here.step(3);
         const std::vector<Traffic> a = traffic_of(there.state()), b = traffic_of(here.state());

@@ -14,6 +14,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 
 using namespace scree;
 
@@ -50,13 +51,14 @@ TEST_CASE("devices of ranks hold shares of a world, whether it begins whole or o
           "[vulkan][ranks][process:shares]") {
     const bool whole = GENERATE(true, false);
     const StreamedScene scene = streamed("mix", 240);
-    World alone(scene.whole(), {}, make_reference_runner(1));
+    World alone(scene.whole(), tests::coarse(), make_reference_runner(1));
     const std::vector<std::uint64_t> expected = hashes_of(alone, 60);
     const std::size_t rows = alone.state().fixed().bodies;
     std::vector<std::vector<std::uint64_t>> seen(3);
     std::vector<std::size_t> rows_of(3);
     on_devices(3, [&](int rank, std::unique_ptr<Runner> runner) {
-        World world = whole ? World(scene.whole(), {}, std::move(runner)) : World(scene, {}, std::move(runner));
+        World world =
+            whole ? World(scene.whole(), tests::coarse(), std::move(runner)) : World(scene, tests::coarse(), std::move(runner));
         seen[static_cast<std::size_t>(rank)] = hashes_of(world, 60);
         if (const auto share = world.share()) rows_of[static_cast<std::size_t>(rank)] = share->state.fixed().bodies;
     });
@@ -70,12 +72,12 @@ TEST_CASE("devices of ranks hold shares of a world, whether it begins whole or o
 // Stones that slide pass from rank to rank and gather on one: rows are taken from bodies that have gone, and tables grow.
 TEST_CASE("bodies pass between the shares of devices, whose tables grow", "[vulkan][ranks][process:shares]") {
     const StreamedScene scene = streamed("avalanche", 400);
-    World alone(scene.whole(), {}, make_reference_runner(1));
+    World alone(scene.whole(), tests::coarse(), make_reference_runner(1));
     alone.step(200);
     std::vector<std::uint64_t> hashes(2);
     std::vector<std::size_t> fewest(2, 1u << 30), most(2);
     on_devices(2, [&](int rank, std::unique_ptr<Runner> runner) {
-        World world(scene, {}, std::move(runner));
+        World world(scene, tests::coarse(), std::move(runner));
         const auto at = static_cast<std::size_t>(rank);
         for (int step = 0; step < 200; ++step) {
             world.step();
@@ -108,11 +110,11 @@ TEST_CASE("many ghosts come to the share of a device within one step", "[vulkan]
         ball.velocity = {-8 * side, 0, 0};
         scene.bodies.push_back(ball);
     }
-    World alone(scene, {}, make_reference_runner(1));
+    World alone(scene, tests::coarse(), make_reference_runner(1));
     const std::vector<std::uint64_t> expected = hashes_of(alone, 120);
     std::vector<std::vector<std::uint64_t>> seen(2);
     on_devices(2, [&](int rank, std::unique_ptr<Runner> runner) {
-        World world(scene, {}, std::move(runner));
+        World world(scene, tests::coarse(), std::move(runner));
         seen[static_cast<std::size_t>(rank)] = hashes_of(world, 120);
     });
     CHECK(seen[0] == expected);
@@ -135,12 +137,12 @@ TEST_CASE("shares on devices are whole for whoever looks, and saved in pieces", 
         note();
         return values;
     };
-    World alone(scene.whole(), {}, make_reference_runner(1));
+    World alone(scene.whole(), tests::coarse(), make_reference_runner(1));
     const std::vector<float> expected = act(alone);
     std::vector<std::vector<float>> seen(2);
     std::vector<std::byte> saved;
     on_devices(2, [&](int rank, std::unique_ptr<Runner> runner) {
-        World world(scene, {}, std::move(runner));
+        World world(scene, tests::coarse(), std::move(runner));
         seen[static_cast<std::size_t>(rank)] = act(world);
         world.step(20);
         if (!world.share()) throw std::runtime_error("not shared out again");
@@ -153,7 +155,7 @@ TEST_CASE("shares on devices are whole for whoever looks, and saved in pieces", 
     CHECK(seen[0] == expected);
     CHECK(seen[1] == expected);
     alone.step(20);
-    World other(scene.whole(), {}, make_reference_runner(1));
+    World other(scene.whole(), tests::coarse(), make_reference_runner(1));
     other.restore(saved);
     CHECK(other.state_hash() == alone.state_hash());
     other.step(10);

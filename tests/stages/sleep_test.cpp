@@ -10,6 +10,7 @@
 #include "compute/world.h"
 #include "shaders/physics/extra/sleep.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -77,7 +78,7 @@ Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, 
 
 TEST_CASE("bodies fall asleep and are struck with the same bits on both processors, whatever their number", "[process:changes]") {
     const Watched watched;
-    Settings light;  // sleepers
+    Settings light = tests::coarse();  // sleepers
     light.sleep_time = 0.08f;
     light.sleep_speed = 0.2f;
     for (const unsigned bodies : {0u, 1u, 125u, 126u, 127u, 128u, 129u, 1234u}) {
@@ -90,7 +91,7 @@ TEST_CASE("bodies fall asleep and are struck with the same bits on both processo
 
 TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both processors", "[process:changes]") {
     const Watched watched;
-    Settings light;
+    Settings light = tests::coarse();
     light.sleep_time = 0.08f;
     for (const unsigned boxes : {27u, 127u, 128u, 300u}) {
         CAPTURE(boxes);
@@ -102,7 +103,7 @@ TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both
 
 TEST_CASE("both processors grow their buffers alike while bodies sleep and wake", "[process:changes]") {
     const Watched watched;
-    Settings tiny;
+    Settings tiny = tests::coarse();
     tiny.pairs_at_first = 1;
     tiny.contacts_at_first = 1;
     tiny.sleep_time = 0.08f;
@@ -113,7 +114,7 @@ TEST_CASE("both processors grow their buffers alike while bodies sleep and wake"
 
 TEST_CASE("what the user asks of sleepers is done alike on both processors", "[process:changes]") {
     const Watched watched;
-    Settings light;
+    Settings light = tests::coarse();
     light.sleep_time = 0.1f;
     const Scene scene = tests::apart(40);
     World cpu(scene, light, 2);

@@ -7,6 +7,7 @@
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 
 using namespace scree;
 
@@ -26,7 +27,7 @@ TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep gi
     controlled(add_cart(scene, {.position = {18, 0, 0}}), {.throttle = 0.5f, .steer = 0.6f});
     const std::size_t routed = add_car(scene, {.position = {-6, 0, 0}, .heading = 0.3f, .speed = 6});
     scene.vehicles[routed].route = {{{-6, 0, 0}, 6}, {{-5, 0, 4}, 8}, {{-8, 0, 8}, 3}};
-    Settings settings;
+    Settings settings = tests::coarse();
     settings.sleep_time = 0.2f;
     settings.pairs_at_first = 40;  // so that the first step overflows and is repeated
     Lockstep lockstep(scene, settings, device, 2);
@@ -46,7 +47,7 @@ TEST_CASE("a brake that is let go and pulled again gives the same bits on both p
     scene.bodies.push_back(ground);
     add_car(scene, {.speed = 1});
     const Watched watched;
-    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(watched.device));
+    World cpu(scene, tests::coarse(), 2), there(scene, tests::coarse(), make_device_runner(watched.device));
     for (int step = 0; step < 40; ++step) {
         for (World* world : {&cpu, &there}) {
             if (step % 10 == 0) world->drive(0, {.brake = step % 20 == 0 ? 1.0f : 0.0f});

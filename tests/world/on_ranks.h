@@ -14,6 +14,7 @@
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/in_process.h"
 #include "compute/world.h"
+#include "tests/world/coarse.h"
 #include "tests/world/poisoned.h"
 
 namespace scree::tests {
@@ -33,7 +34,7 @@ struct Poison {
 };
 
 inline Lines told_by_one(const Scene& scene, const TellingScript& script, const Poison& poison = {}) {
-    World world(scene, {}, poison.in<ReferenceRunner>(1));
+    World world(scene, coarse(), poison.in<ReferenceRunner>(1));
     return script(world);
 }
 
@@ -41,7 +42,7 @@ inline Lines told_by_one(const Scene& scene, const TellingScript& script, const 
 inline std::vector<Lines> told_by_ranks(int ranks, const Scene& scene, const TellingScript& script, const MakeRank& make) {
     std::vector<Lines> told(static_cast<std::size_t>(ranks));
     run_in_process(ranks, [&](const std::shared_ptr<Exchange>& exchange) {
-        World world(scene, {}, make(exchange));
+        World world(scene, coarse(), make(exchange));
         told[static_cast<std::size_t>(exchange->rank())] = script(world);
     });
     return told;

@@ -5,6 +5,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
 
 using namespace scree;
 
@@ -24,7 +25,7 @@ void check_lockstep(bool trial, bool takes_bodies) {
         // Its joints are those of `chain`; lavapipe compiles its shaders for a minute.
         if (demo.name == std::string("capstan")) continue;
         if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and covered by other demos
-        const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, watched.device, 1, 40);
+        const LockstepResult result = compare_in_lockstep(small(demo).scene, tests::coarse(), watched.device, 1, 40);
         INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
                        << "], " << result.detail);
         CHECK(result.equal);
@@ -57,7 +58,7 @@ TEST_CASE("no demo but one begins with bodies inside each other or inside what h
             options.bodies = demo.takes_bodies ? bodies : 0;
             Scene scene = demos::build(demo, options).scene;
             for (Body& body : scene.bodies) body.velocity = vec3(0);  // projectiles move far in one step
-            World world(scene, {}, 1);
+            World world(scene, tests::coarse(), 1);
             world.step();
             INFO(demo.name << " with " << world.scene().bodies.size() << " bodies");
             CHECK(world.statistics().penetration_max < 0.01);
