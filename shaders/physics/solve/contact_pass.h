@@ -53,6 +53,7 @@ LAW BlockBodies relax_bodies(BodyMass a, BodyForces load_a, BodyMass b, BodyForc
 LAW PassOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around,
                             Parameters parameters) {
     SolveResult after = solve_contact(c, impulse, v, bodies.a, bodies.b, around, bodies.part, parameters);
+    c = refresh_round_contact(c, after.impulse.center_offset);
     PassOutcome outcome;
     outcome.impulse = after.impulse;
     outcome.velocity = after.pair_velocity;
@@ -67,6 +68,7 @@ LAW PassOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, Block
 LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around, bool last,
                            Parameters parameters) {
     SolveResult after = relax_contact(c, impulse, bodies.moved, v, bodies.a, bodies.b, around, bodies.part, parameters);
+    c = refresh_round_contact(c, after.impulse.center_offset);
     PassOutcome outcome;
     outcome.borne = normal_impulse(after.impulse);
     outcome.impulse = clear_impacts(after.impulse, point_count(c));
@@ -74,7 +76,7 @@ LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockB
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
-    outcome.weight = counts_next(c, impulse, outcome.impulse, after.pair_velocity, bodies.a, bodies.b, parameters);
+    outcome.weight = counts_next(c, impulse, outcome.impulse, after.speeds, bodies.a, bodies.b, parameters);
     outcome.passed_on = outcome.impulse.normal_sum;
     return outcome;
 }

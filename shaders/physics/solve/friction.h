@@ -314,8 +314,25 @@ LAW bool has_friction(Impulse impulse) {
     return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
 }
 
-// Friction acts in both passes. In the relax pass alone, which corrects a warm start only once, over-relaxed splitting
-// overshoots above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
+// The relax pass changes normal impulses, and friction with them where it slides: what lies on the limit surface stays there.
+// `biased`, `normal`: normal impulses before and after, N s.
+LAW SolveResult with_sliding_friction(Constraint c, SolveResult s, float biased, float normal) {
+    float hold = reciprocal(larger(c.friction * biased, LEAST_HOLD));
+    vec3 held = s.impulse.friction * hold;
+    float arm = choose(c.twist_arm > 0.0f, c.twist_arm, 1.0f), area = arm * arm;
+    float x = smaller(dot3(held, held), 4.0f), y = s.impulse.twist * hold;
+    y = smaller(y * y, 4.0f * area);
+    bool slides = c.friction * biased > LEAST_HOLD && x * (area + LIMIT_COUPLING * y) + y > 0.999f * area;
+    float change = choose(slides, normal * reciprocal(larger(biased, LEAST_HOLD)) - 1.0f, 0.0f);
+    vec3 push = s.impulse.friction * change;
+    float twist = s.impulse.twist * change;
+    s.impulse.friction = flush_tiny(s.impulse.friction + push);
+    s.impulse.twist = flush_tiny(s.impulse.twist + twist);
+    s.push = s.push + push;
+    s.moment = s.moment + c.normal * twist;
+    return s;
+}
+
 LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool biased,
                                      Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);

@@ -22,6 +22,7 @@ LAW VelocityPair choose(bool condition, VelocityPair v, VelocityPair w) {
 struct SolveResult {
     Impulse impulse;
     VelocityPair pair_velocity;  // of the split bodies, afterwards
+    vec3 speeds;                 // along the normal (normal_rows.h), before friction
     vec3 push, moment;           // that the pass exerts on B at the centre of the patch, N s and N m s
     vec4 restarts;               // per point, 1: the next substep begins without its normal impulse
 };

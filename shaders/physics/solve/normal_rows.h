@@ -65,18 +65,24 @@ LAW vec3 response_at(NormalRows rows, Constraint c, int k) {
 LAW vec3 response_to(NormalRows rows, vec3 press) {
     return rows.at_centre * press.x + (rows.along_u * press.y + rows.along_v * press.z);
 }
-// The velocities of the split bodies, and what was exerted, after impulses along the normal. `press`: their sum by press_at().
-LAW SolveResult pressed(SolveResult s, Constraint c, NormalRows rows, vec3 press, Mass a, Mass b) {
+// The velocities of the split bodies after impulses along the normal. `press`: their sum by press_at().
+LAW VelocityPair pressed(VelocityPair v, Constraint c, NormalRows rows, vec3 press, Mass a, Mass b) {
     vec3 moment = rows.u * press.z - rows.v * press.y;
-    VelocityPair v = s.pair_velocity;
     v.a.linear = v.a.linear - c.normal * (press.x * a.inverse_mass * a.split);
     v.a.angular = v.a.angular - (rows.response_a * press.x + turned_by(a, moment)) * a.split;
     v.b.linear = v.b.linear + c.normal * (press.x * b.inverse_mass * b.split);
     v.b.angular = v.b.angular + (rows.response_b * press.x + turned_by(b, moment)) * b.split;
-    s.pair_velocity = v;
-    s.push = c.normal * press.x;
-    s.moment = moment;
-    return s;
+    return v;
+}
+// What the normal impulses of a pass exert. `speeds`: afterwards.
+LAW SolveResult result_of(Constraint c, NormalRows rows, Impulse impulse, vec3 speeds, vec3 press) {
+    SolveResult result;
+    result.impulse = impulse;
+    result.speeds = speeds;
+    result.push = c.normal * press.x;
+    result.moment = rows.u * press.z - rows.v * press.y;
+    result.restarts = vec4(0.0f);
+    return result;
 }
 
 LAWS_END
