@@ -69,7 +69,7 @@ void begin_substep_of(State& state, std::size_t i) {
     const SlotSum sum = sum_of_slots(state, i);
     state.velocities[i] =
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
-    state.masses[i].split_state = physics::pack_split_state(sum.weight, sum.normal_impulse);
+    state.masses[i].shares = physics::pack_shares(sum.weight, sum.normal_impulse);
 }
 
 void move(State& state, std::size_t i) {

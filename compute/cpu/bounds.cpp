@@ -65,7 +65,7 @@ void bound(State& state, const Threads& threads, std::size_t i) {
     const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
     if (physics::is_quarantined(state.properties[owner].motion)) {
         state.bounds[i] = physics::no_bounds(pose);
-        float& mark = state.masses[i].split_state;
+        float& mark = state.masses[i].shares;
         if (mark < 0) mark = physics::quarantine_code(mark, state.counted().steps);
         return;
     }

@@ -27,7 +27,7 @@ float least_quiet_beside(const State& state, std::size_t body) {
 
 void put_into_quarantine(State& state, std::size_t i, float mark) {
     state.properties[i].motion = physics::MOTION_QUARANTINED;
-    state.masses[i].split_state = mark;
+    state.masses[i].shares = mark;
     state.velocities[i] = {};
     state.forces[i].kept = 1;
     state.sleep_states[i] = 0;

@@ -22,7 +22,7 @@ struct GhostAtStart {
     physics::Pose pose;
     physics::Velocity velocity;
     physics::BodyForces forces;
-    float split_state = 0;
+    float shares = 0;
 };
 struct FreshGhost {
     std::uint32_t id = 0;
@@ -30,7 +30,7 @@ struct FreshGhost {
 };
 struct GhostVelocity {
     physics::Velocity velocity;
-    float split_state = 0;
+    float shares = 0;
 };
 struct GhostMotion {
     physics::Velocity velocity;
@@ -185,7 +185,7 @@ Bytes Halo::start_of(const State& state, const std::vector<std::uint32_t>& rows,
     for (const std::uint32_t row : rows) {
         const std::uint32_t id = state.id_of(row);
         put(ghosts, GhostAtStart{id, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
-                                 state.masses[row].split_state});
+                                 state.masses[row].shares});
         if (!state.is_share()) continue;
         ids.push_back(id);
         if (!std::binary_search(known.begin(), known.end(), id)) put(fresh, FreshGhost{id, state.properties[row]});
@@ -228,7 +228,7 @@ void Halo::take_ghosts(State& state, Share& share, const std::vector<Bytes>& sen
             state.poses[row] = ghost.pose;
             state.velocities[row] = ghost.velocity;
             state.forces[row] = ghost.forces;
-            state.masses[row].split_state = ghost.split_state;
+            state.masses[row].shares = ghost.shares;
         }
 }
 
@@ -314,11 +314,11 @@ void Halo::start_velocities(State& state, Exchange& exchange) {
     start<GhostVelocity>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
-            return GhostVelocity{s.velocities[row], s.masses[row].split_state};
+            return GhostVelocity{s.velocities[row], s.masses[row].shares};
         },
         [](State& s, std::uint32_t row, const GhostVelocity& ghost) {
             s.velocities[row] = ghost.velocity;
-            s.masses[row].split_state = ghost.split_state;
+            s.masses[row].shares = ghost.shares;
         });
 }
 

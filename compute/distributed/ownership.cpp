@@ -27,12 +27,12 @@ struct MovedBody {
     physics::BodyProperties properties;
     physics::Pose pose;
     physics::Velocity velocity;
-    float split_state = 0, strain = 0;
+    float shares = 0, strain = 0;
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
     return {state.id_of(row),      state.sleep_states[row],       state.properties[row], state.poses[row],
-            state.velocities[row], state.masses[row].split_state, state.strains[row]};
+            state.velocities[row], state.masses[row].shares, state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {
     const std::uint32_t row = state.row_of(body.id);
@@ -40,7 +40,7 @@ void take_body(State& state, const MovedBody& body) {
     state.sleep_states[row] = body.rest;
     state.poses[row] = body.pose;
     state.velocities[row] = body.velocity;
-    state.masses[row].split_state = body.split_state;
+    state.masses[row].shares = body.shares;
     state.strains[row] = body.strain;
 }
 

@@ -19,7 +19,7 @@ struct OwnedBody {
     physics::BodyProperties properties;
     physics::Pose pose;
     physics::Velocity velocity;
-    float split_state = 0, strain = 0;
+    float shares = 0, strain = 0;
 };
 
 std::uint32_t with_room(std::size_t rows) {
@@ -181,7 +181,7 @@ void Share::end(State& state, Exchange& exchange) {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row))
             put(said, OwnedBody{state.id_of(row), state.sleep_states[row], state.properties[row], state.poses[row],
-                                state.velocities[row], state.masses[row].split_state, state.strains[row]});
+                                state.velocities[row], state.masses[row].shares, state.strains[row]});
     const std::uint32_t first_part = *state.first_part_id;
     std::vector<std::uint32_t> from(first_part, physics::NONE);
     for (std::uint32_t id = 0; id < state.body_count; ++id) from[id] = state.row_of(id);
@@ -201,7 +201,7 @@ void Share::end(State& state, Exchange& exchange) {
             state.sleep_states[body.id] = body.rest;
             state.poses[body.id] = body.pose;
             state.velocities[body.id] = body.velocity;
-            state.masses[body.id].split_state = body.split_state;
+            state.masses[body.id].shares = body.shares;
             state.strains[body.id] = body.strain;
         }
     }

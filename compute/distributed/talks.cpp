@@ -184,10 +184,10 @@ void DistributedRunner::tell_quarantined() {
     State& state = *state_;
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
-        if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].split_state >= 0)
+        if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].shares >= 0)
             continue;
         put(said, state.id_of(row));
-        put(said, state.masses[row].split_state);
+        put(said, state.masses[row].shares);
     }
     tell_ownerless(/* breaks */ false);
     for (const Bytes& told : exchange_->gather(said))
@@ -196,7 +196,7 @@ void DistributedRunner::tell_quarantined() {
             const auto mark = from.take<float>();
             if (row == physics::NONE) continue;
             state.properties[row].motion = physics::MOTION_QUARANTINED;
-            state.masses[row].split_state = mark;
+            state.masses[row].shares = mark;
             state.velocities[row] = {};
             state.sleep_states[row] = 0;
         }

@@ -350,7 +350,7 @@ std::vector<Quarantine> World::quarantines() const {
     for (std::size_t i = 0; i < in.scene.bodies.size(); ++i) {
         const std::uint32_t row = in.state.row_of(i);
         if (!physics::is_quarantined(in.state.properties[row].motion)) continue;
-        const float code = in.state.masses[row].split_state;  // quarantine.h
+        const float code = in.state.masses[row].shares;  // quarantine.h
         const auto steps_and_stage = static_cast<std::uint64_t>(std::max(code, 0.0f));
         const bool ended = code < 0 ? code == physics::AFTER_STEP : (steps_and_stage & 1) != 0;
         const auto hung = std::ranges::count_if(in.scene.joints, [&](const Joint& one) { return one.a == i || one.b == i; });

@@ -26,8 +26,8 @@ void main() {
     uint owner = body_of(i);
     if (is_quarantined(owner == i ? body.motion : READ(properties, owner).motion)) {
         bounds.at[i] = no_bounds(pose);
-        float mark = masses.at[i].split_state;
-        if (mark < 0.0f) masses.at[i].split_state = quarantine_code(mark, COUNTS.steps);
+        float mark = masses.at[i].shares;
+        if (mark < 0.0f) masses.at[i].shares = quarantine_code(mark, COUNTS.steps);
         return;
     }
     float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;

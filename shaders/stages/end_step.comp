@@ -42,7 +42,7 @@ void main() {
     bool moved = READ(forces, i).kept != UNSOUND;
     if (!moved || !is_sound(velocity)) {
         properties.at[i].motion = MOTION_QUARANTINED;
-        masses.at[i].split_state = moved ? AFTER_STEP : AFTER_MOVE;
+        masses.at[i].shares = moved ? AFTER_STEP : AFTER_MOVE;
         velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
         forces.at[i].kept = 1.0f;
         WORD(sleep_states, i) = 0u;

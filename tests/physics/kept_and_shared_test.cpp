@@ -87,12 +87,12 @@ TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ba
 
 TEST_CASE("of a body's mass half is shared alike and half by what presses") {
     const Parameters parameters = some_parameters();
-    const float split_state = pack_split_state(3, 8);
-    const float parts[] = {1 / split_factor(split_state, 4, parameters), 1 / split_factor(split_state, 4, parameters),
-                           1 / split_factor(split_state, 0, parameters)};
+    const float packed = pack_shares(3, 8);
+    const float parts[] = {1 / split_factor(packed, 4, parameters), 1 / split_factor(packed, 4, parameters),
+                           1 / split_factor(packed, 0, parameters)};
     CHECK(parts[0] == Approx(1.5 * (0.5 / 3 + 0.25)).epsilon(0.01));
     CHECK(parts[2] == Approx(1.5 * (0.5 / 3)).epsilon(0.01));
     CHECK(parts[0] + parts[1] + parts[2] == Approx(1.5).epsilon(0.01));
-    CHECK(split_factor(pack_split_state(1, 8), 8, parameters) == 1);
+    CHECK(split_factor(pack_shares(1, 8), 8, parameters) == 1);
     CHECK(split_factor(0, 0, parameters) == 1);  // no history for new bodies
 }

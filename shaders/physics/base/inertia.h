@@ -46,7 +46,7 @@ LAW Mass whole_mass(BodyMass body) {
     mass.split = 1.0f;
     return mass;
 }
-LAW BodyMass body_mass(Mass mass, float split_state) {
+LAW BodyMass body_mass(Mass mass, float shares) {
     BodyMass body;
     body.xx = mass.xx;
     body.xy = mass.xy;
@@ -55,7 +55,7 @@ LAW BodyMass body_mass(Mass mass, float split_state) {
     body.yz = mass.yz;
     body.zz = mass.zz;
     body.inverse_mass = mass.inverse_mass;
-    body.split_state = split_state;
+    body.shares = shares;
     return body;
 }
 

@@ -119,7 +119,7 @@ struct BodyMass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
     float yz, zz;
     float inverse_mass;  // 1/kg
-    float split_state;   // number of active contacts and sum of their normal impulses, packed (mass_splitting.h)
+    float shares;        // of the mass among its contacts, packed (mass_splitting.h)
 };
 // The mass of a split body: 1/s of the body's.
 struct Mass {

@@ -3,7 +3,7 @@
 // device, and no NaN reaches a pose.
 //
 // A substep that would move a body to such a state leaves it where it is, at rest, and marks it (motion.h: move_soundly);
-// end_step puts it into quarantine, or finds its last velocity unsound. BodyMass.split_state then says which of them found it,
+// end_step puts it into quarantine, or finds its last velocity unsound. BodyMass.shares then says which of them found it,
 // until the next step's compute_bounds replaces it by quarantine_code().
 #ifndef SCREE_PHYSICS_QUARANTINE_H
 #define SCREE_PHYSICS_QUARANTINE_H

@@ -13,7 +13,7 @@ LAWS_BEGIN
 LAW Mass mass_of_member(BodyMass body, bool moves, uint blocks, float normal_sum, bool after_contacts, Parameters parameters) {
     Mass mass = whole_mass(body);
     float among_blocks = larger(1.0f, float(blocks) * parameters.inverse_relaxation);
-    mass.split = choose(after_contacts, among_blocks, split_factor(body.split_state, normal_sum, parameters));
+    mass.split = choose(after_contacts, among_blocks, split_factor(body.shares, normal_sum, parameters));
     mass.xx = choose(moves, mass.xx, 0.0f);
     mass.xy = choose(moves, mass.xy, 0.0f);
     mass.xz = choose(moves, mass.xz, 0.0f);

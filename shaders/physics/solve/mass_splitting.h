@@ -13,31 +13,28 @@
 
 LAWS_BEGIN
 
-CONSTANT float LEAST_PRESSING = 1e-30f;  // N s; below, the impulses are unknown and shares are equal
-// Packs two numbers into a word, each as the upper half of a float: the contact count and the sum of the normal
-// impulses. The word is a float neither denormal nor infinite, so a device may load and store it.
-LAW float pack_split_state(float contacts, float normal_impulse) {
-    uint count = (floatBitsToUint(contacts) + 0xFFFFu) >> 16u;  // rounded up
-    return uintBitsToFloat((floatBitsToUint(clamped(normal_impulse, LEAST_PRESSING, 1.0e30f)) & 0xFFFF0000u) | count);
-}
-LAW float contact_count_of(float split_state) {
-    return uintBitsToFloat(floatBitsToUint(split_state) << 16u);
-}
-
-// Sum of the normal impulses of a body's contacts as the substep began, N s.
-LAW float normal_impulses_of(float split_state) {
-    return uintBitsToFloat(floatBitsToUint(split_state) & 0xFFFF0000u);
+// What the shares of a body's contacts are made of, as a substep begins: each has equal + min(1/2, pressed * its normal impulse).
+// Packed into a word, each as the upper half of a float, rounded down. The word is a float neither denormal nor infinite, so a
+// device may load and store it. `normal_impulse`: of all contacts, N s.
+CONSTANT float LEAST_PRESSING = 1e-30f;
+LAW float pack_shares(float contacts, float normal_impulse) {
+    float equal = reciprocal(larger(contacts, 1.0f));
+    float pressed = 0.5f * reciprocal(clamped(normal_impulse, LEAST_PRESSING, 1.0e30f));
+    equal = choose(contacts > 1.0f && normal_impulse > LEAST_PRESSING, 0.5f * equal, equal);
+    return uintBitsToFloat((floatBitsToUint(pressed) & 0xFFFF0000u) | (floatBitsToUint(equal) >> 16u));
 }
 
-// The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal.
-LAW float split_factor(float split_state, float normal_sum, Parameters parameters) {
-    float contacts = contact_count_of(split_state);
-    float all = normal_impulses_of(split_state);
-    float split = contacts * parameters.inverse_relaxation;
-    bool weighed = contacts > 1.0f && 0.5f * all > LEAST_PRESSING;
-    float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, normal_sum * reciprocal(all));
-    split = choose(weighed, parameters.inverse_relaxation * reciprocal(part), split);
-    return larger(1.0f, split);
+// What presses on a body as the substep begins, N s: 1/2 over this.
+LAW float pressed_of(float shares) {
+    return uintBitsToFloat(floatBitsToUint(shares) & 0xFFFF0000u);
+}
+
+// The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal; 1 for a body
+// that no substep has begun with.
+LAW float split_factor(float shares, float normal_sum, Parameters parameters) {
+    float equal = uintBitsToFloat(floatBitsToUint(shares) << 16u);
+    float share = choose(equal > 0.0f, equal + smaller(0.5f, pressed_of(shares) * normal_sum), 1.0f);
+    return larger(1.0f, parameters.inverse_relaxation * reciprocal(share));
 }
 // Sum over the points, N s.
 LAW float normal_impulse(Impulse impulse) {
@@ -45,7 +42,7 @@ LAW float normal_impulse(Impulse impulse) {
 }
 LAW Mass split_mass(BodyMass body, Impulse impulse, Parameters parameters) {
     Mass mass = whole_mass(body);
-    mass.split = split_factor(body.split_state, impulse.normal_sum, parameters);
+    mass.split = split_factor(body.shares, impulse.normal_sum, parameters);
     return mass;
 }
 

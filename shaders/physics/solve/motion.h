@@ -97,7 +97,7 @@ LAW bool is_spin_limited(Velocity velocity, Parameters parameters) {
 
 // The record of a body's mass at an orientation.
 LAW BodyMass turned_mass(BodyMass mass, BodyProperties properties, vec4 orientation) {
-    return body_mass(mass_in_world(properties, orientation), mass.split_state);
+    return body_mass(mass_in_world(properties, orientation), mass.shares);
 }
 
 // Sets velocities and applies the user's impulses at the start of the step.

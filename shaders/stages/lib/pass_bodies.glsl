@@ -36,7 +36,7 @@ void begin_body(uint i) {
             velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    masses.at[i].split_state = pack_split_state(sum.weight, sum.normal_impulse);
+    masses.at[i].shares = pack_shares(sum.weight, sum.normal_impulse);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
