@@ -50,6 +50,7 @@ SCREE_INLINE void prefetch_next(const WideTables& tables, std::size_t first, std
 // code of what is constant. Replaces only members that are compared, or keep the sign of a zero.
 template <bool plain>
 SCREE_INLINE Constraint narrowed(Constraint c) {
+    c.flags = c.flags & ~(CONSTRAINT_FOLLOWS | CONSTRAINT_LEADS);  // lanes take single contacts
     if (!plain) return c;
     c.restitution = c.rolling_resistance = c.tyre_slip = 0.0f;
     c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;

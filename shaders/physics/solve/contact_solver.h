@@ -114,11 +114,11 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             press = press + press_at(c, after - before, k);
         }
     }
-    SolveResult result = result_of(c, rows, impulse, speeds, press);
+    SolveResult result = result_of(c, impulse, speeds, press);
     if (!none(strikes || is_impact(impulse)))
         result.impulse =
             after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
-    result.pair_velocity = pressed(v, c, rows, press, a, b);
+    result.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
     a = with_relaxation(a, true, FRICTION_RELAXATION, parameters);
     b = with_relaxation(b, true, FRICTION_RELAXATION, parameters);
     return solve_patch_friction(c, result, normal_impulse(impulse), a, b, true, parameters);
@@ -157,7 +157,9 @@ CONSTANT float PARTING = 1.5f, FALLING = 5.0f;
 // applies restitution and friction. `part`: part_of_stiffness().
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b,
                               ImpactContext around, float part, Parameters parameters) {
-    bool struck = is_impact(impulse);
+    // Friction that sticks is solved in the biased pass alone. A block solves its contacts one after the other, in the biased
+    // pass from the first to the last, so it solves theirs backwards here.
+    bool struck = is_impact(impulse), in_block = follows_in_block(c) || leads_in_block(c);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
     bool follows = is_of_round_bodies(c);
@@ -203,18 +205,14 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
             parting[k] = choose(acts, choose(speed > PARTING * fall_speed(parameters), 1.0f, 0.0f), parting[k]);
         }
     }
-    SolveResult result = result_of(c, rows, impulse, speeds, press);
+    SolveResult result = result_of(c, impulse, speeds, press);
     result.pair_velocity = v;
     float normal = normal_impulse(impulse);
-    SolveResult slid = with_sliding_friction(c, result, biased, normal);
-    // An impact's friction is that of its rebound, too; and a block solves its contacts one after the other, in the biased pass
-    // from the first to the last.
-    bool rubs = struck || follows_in_block(c) || leads_in_block(c);
+    bool rubs = struck || in_block || rubs_anew(c, impulse, press, normal);
     if (!none(rubs)) {
-        result.pair_velocity = pressed(v, c, rows, press, a, b);
-        result = choose(rubs, solve_patch_friction(c, result, normal, a, b, false, parameters), slid);
-    } else {
-        result = slid;
+        SolveResult rubbed = result;
+        rubbed.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
+        result = choose(rubs, solve_patch_friction(c, rubbed, normal, a, b, false, parameters), result);
     }
     float fall = impulse.normal_sum - normal;
     bool restarts = fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
@@ -222,10 +220,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     return result;
 }
 
-// What a contact exerts on B at the centre of its patch, N s and N m s.
-struct Wrench {
-    vec3 push, moment;
-};
+// All that a contact exerts.
 LAW Wrench wrench_of(Constraint c, Impulse impulse) {
     vec3 press = vec3(0.0f), u = tangent(c.normal);
     for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k], k);
@@ -234,28 +229,17 @@ LAW Wrench wrench_of(Constraint c, Impulse impulse) {
     wrench.moment = (u * press.z - cross3(c.normal, u) * press.y) + (impulse.rolling + c.normal * impulse.twist);
     return wrench;
 }
-// The velocity changes of the whole (not split) bodies. Both feel the push at the same point.
-LAW VelocityPair changes_by(Constraint c, Wrench wrench, vec3 d, Mass a, Mass b) {
-    LeverArms r = lever_arms(c, c.centre, d);
-    VelocityPair change;
-    change.a.linear = vec3(0.0f) - wrench.push * a.inverse_mass;
-    change.a.angular = vec3(0.0f) - turned_by(a, cross3(r.a, wrench.push) + wrench.moment);
-    change.b.linear = wrench.push * b.inverse_mass;
-    change.b.angular = turned_by(b, cross3(r.b, wrench.push) + wrench.moment);
-    change.a.low_y = change.a.low_z = change.b.low_y = change.b.low_z = 0.0f;
-    return change;
-}
 // The warm start of a substep: what the impulses of the last one change.
 LAW VelocityPair warm_start(Constraint c, Impulse impulse, Mass a, Mass b) {
     c = refresh_round_contact(c, impulse.center_offset);
-    return changes_by(c, wrench_of(c, impulse), impulse.center_offset, a, b);
+    return changes_by(wrench_of(c, impulse), lever_arms(c, c.centre, impulse.center_offset), a, b);
 }
 // What a pass has changed, and what the impulses do with which the next substep begins. `c`: at the present poses.
 LAW VelocityPair changes_after(Constraint c, SolveResult after, Impulse next, bool warm_starts, Mass a, Mass b) {
     Wrench begins = wrench_of(c, next), wrench;
-    wrench.push = after.push + choose(warm_starts, begins.push, vec3(0.0f));
-    wrench.moment = after.moment + choose(warm_starts, begins.moment, vec3(0.0f));
-    return changes_by(c, wrench, after.impulse.center_offset, a, b);
+    wrench.push = after.wrench.push + choose(warm_starts, begins.push, vec3(0.0f));
+    wrench.moment = after.wrench.moment + choose(warm_starts, begins.moment, vec3(0.0f));
+    return changes_by(wrench, lever_arms(c, c.centre, after.impulse.center_offset), a, b);
 }
 
 // The separation, m, below which a point counts, and whether a point comes that near within the next substep; `speed`: of the

@@ -66,8 +66,9 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
         after = choose(rolls, flush_tiny(shortened(flush_tiny(from - spin * reciprocal(greatest)), most)), after);
     }
     s.impulse.rolling = after;
-    s.moment = s.moment + (after - before);
-    s.pair_velocity = twisted(s.pair_velocity, after - before, a, a.split, b, b.split);
+    s.wrench.moment = s.wrench.moment + (after - before);
+    s.pair_velocity.a.angular = s.pair_velocity.a.angular - turned_by(a, after - before) * a.split;
+    s.pair_velocity.b.angular = s.pair_velocity.b.angular + turned_by(b, after - before) * b.split;
     return s;
 }
 
@@ -87,6 +88,19 @@ CONSTANT float TURNING_SQUARED = 1.0e-4f;
 LAW vec3 path_curvature(vec3 angular, vec3 arm, float h) {
     vec3 acceleration = cross3(angular, cross3(angular, arm));
     return acceleration * (0.5f * h) + cross3(angular, acceleration) * (0.16666667f * (h * h));
+}
+
+// B minus A at the centre of the patch, with the curvature of their paths, m/s.
+LAW vec3 slip_of(LeverArms r, VelocityPair v, Parameters parameters) {
+    vec3 slip = velocity_at(r, v), wa = v.a.angular, wb = v.b.angular;
+    bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
+    if (!none(turns)) {
+        // Bodies may spin beyond the limit within a pass, where the series diverges.
+        vec3 curve_a = path_curvature(shortened(wa, parameters.max_spin), r.a, parameters.h);
+        vec3 curve_b = path_curvature(shortened(wb, parameters.max_spin), r.b, parameters.h);
+        slip = choose(turns, slip + (curve_b - curve_a), slip);
+    }
+    return slip;
 }
 
 // The anchor of a patch that sticks, in one pass: friction transmits -K^-1 (slip + rate * stretch), less `leak` of it.
@@ -109,17 +123,9 @@ LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
 
 // After the positions were integrated with `v`: the patch's stretch, which turns with the bodies as its friction does.
 LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
-    LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
-    vec3 slip = velocity_at(r, v);
+    vec3 slip = slip_of(lever_arms(c, c.centre, impulse.center_offset), v, parameters), wa = v.a.angular, wb = v.b.angular;
     bool driven = is_driven(c);
     if (!none(driven)) slip = choose(driven, slip + drive_of(c), slip);
-    vec3 wa = v.a.angular, wb = v.b.angular;
-    bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
-    if (!none(turns)) {
-        vec3 curve_a = path_curvature(shortened(wa, parameters.max_spin), r.a, parameters.h);
-        vec3 curve_b = path_curvature(shortened(wb, parameters.max_spin), r.b, parameters.h);
-        slip = choose(turns, slip + (curve_b - curve_a), slip);
-    }
     slip = slip - c.normal * dot3(slip, c.normal);
     float angle = (0.5f * parameters.h) * dot3(c.normal, wa + wb);
     vec3 stretch = impulse.stretch - c.normal * dot3(impulse.stretch, c.normal);
@@ -135,36 +141,37 @@ LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters 
 
 // Both tangents as one 2x2 block, scaled by `unit` so that its trace is 1.
 struct FrictionBlock {
-    JacobianRow row1, row2;
-    float k11, k22, k12, unit;
+    vec3 t1;
+    float k11;
+    vec3 t2;
+    float k22;
+    float k12, unit;
     float slip1, slip2;  // m/s, scaled
+    float turn1, turn2;  // change of the spin by an impulse of 1 along either tangent, scaled
     float pad0, pad1;
 };
-LAW FrictionBlock friction_block(LeverArms r, vec3 normal, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+LAW FrictionBlock friction_block(LeverArms r, vec3 normal, Mass a, Mass b) {
     FrictionBlock k;
-    vec3 t1 = tangent(normal), t2 = cross3(normal, t1);
-    k.row1 = jacobian_row(r, t1, a, b);
-    k.row2 = jacobian_row(r, t2, a, b);
-    float k11 = k.row1.inverse_effective_mass_a * a.split + k.row1.inverse_effective_mass_b * b.split;
-    float k22 = k.row2.inverse_effective_mass_a * a.split + k.row2.inverse_effective_mass_b * b.split;
-    k.unit = reciprocal(k11 + k22);
-    k.k11 = k11 * k.unit;
-    k.k22 = k22 * k.unit;
-    k.k12 = (dot3(k.row2.angular_a, k.row1.angular_response_a) * a.split +
-             dot3(k.row2.angular_b, k.row1.angular_response_b) * b.split) *
-            k.unit;
-    k.slip1 = speed_along(k.row1, v) * k.unit;
-    k.slip2 = speed_along(k.row2, v) * k.unit;
-    vec3 wa = v.a.angular, wb = v.b.angular;
-    bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
-    if (!none(turns)) {
-        // Bodies may spin beyond the limit within a pass, where the series diverges.
-        vec3 curve_a = path_curvature(shortened(wa, parameters.max_spin), r.a, parameters.h);
-        vec3 curve_b = path_curvature(shortened(wb, parameters.max_spin), r.b, parameters.h);
-        vec3 drift = (curve_b - curve_a) * k.unit;
-        k.slip1 = choose(turns, k.slip1 + dot3(t1, drift), k.slip1);
-        k.slip2 = choose(turns, k.slip2 + dot3(t2, drift), k.slip2);
-    }
+    k.t1 = tangent(normal);
+    k.t2 = cross3(normal, k.t1);
+    vec3 arm_a = cross3(r.a, k.t1), arm_b = cross3(r.b, k.t1);
+    vec3 response_a = turned_by(a, arm_a) * a.split, response_b = turned_by(b, arm_b) * b.split;
+    float linear = a.inverse_mass * a.split + b.inverse_mass * b.split;
+    k.k11 = linear + (dot3(arm_a, response_a) + dot3(arm_b, response_b));
+    k.turn1 = dot3(normal, response_a + response_b);
+    arm_a = cross3(r.a, k.t2);
+    arm_b = cross3(r.b, k.t2);
+    k.k12 = dot3(arm_a, response_a) + dot3(arm_b, response_b);
+    response_a = turned_by(a, arm_a) * a.split;
+    response_b = turned_by(b, arm_b) * b.split;
+    k.k22 = linear + (dot3(arm_a, response_a) + dot3(arm_b, response_b));
+    k.turn2 = dot3(normal, response_a + response_b);
+    k.unit = reciprocal(k.k11 + k.k22);
+    k.k11 = k.k11 * k.unit;
+    k.k22 = k.k22 * k.unit;
+    k.k12 = k.k12 * k.unit;
+    k.turn1 = k.turn1 * k.unit;
+    k.turn2 = k.turn2 * k.unit;
     k.pad0 = 0.0f;
     k.pad1 = 0.0f;
     return k;
@@ -173,8 +180,8 @@ LAW FrictionBlock friction_block(LeverArms r, vec3 normal, VelocityPair v, Mass 
 LAW FrictionBlock with_compliance(FrictionBlock k, bool slips, float compliance, vec3 friction) {
     k.k11 = choose(slips, k.k11 + compliance, k.k11);
     k.k22 = choose(slips, k.k22 + compliance, k.k22);
-    k.slip1 = choose(slips, k.slip1 + compliance * dot3(k.row1.direction, friction), k.slip1);
-    k.slip2 = choose(slips, k.slip2 + compliance * dot3(k.row2.direction, friction), k.slip2);
+    k.slip1 = choose(slips, k.slip1 + compliance * dot3(k.t1, friction), k.slip1);
+    k.slip2 = choose(slips, k.slip2 + compliance * dot3(k.t2, friction), k.slip2);
     return k;
 }
 
@@ -197,7 +204,7 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     float greatest = larger(k.k11, k.k22) + abs(k.k12);
     float step = reciprocal(larger(greatest * q, spin_mass * p));
     PatchImpulse after;
-    after.friction = flush_tiny(before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step));
+    after.friction = flush_tiny(before.friction - (k.t1 * k.slip1 + k.t2 * k.slip2) * (q * step));
     after.twist = flush_tiny(before.twist - spin * (p * step));
     // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
     vec3 quotient = after.friction * hold;
@@ -219,22 +226,21 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     after.twist = before.twist;
     VelocityPair v = s.pair_velocity;
     Anchor anchor = anchor_of_pass(c, biased, parameters);
+    LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
+    FrictionBlock k = friction_block(r, c.normal, a, b);
     float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
-    vec3 response_a = c.normal, response_b = c.normal;
     if (!none(twists)) {
-        response_a = choose(twists, turned_by(a, c.normal) * a.split, c.normal);
-        response_b = choose(twists, turned_by(b, c.normal) * b.split, c.normal);
         spin = choose(twists, dot3(c.normal, v.b.angular - v.a.angular), 0.0f);
-        spin_mass = dot3(c.normal, response_a) + dot3(c.normal, response_b);
+        spin_mass = dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
         stopping = (spin + anchor.rate * s.impulse.turn) * reciprocal(spin_mass);
         stopping = choose(holds, -stopping - anchor.leak * before.twist, -before.twist);
         stopping = choose(twists, stopping, 0.0f);  // in lanes beside ones that do
         spin_mass = choose(twists, spin_mass, 0.0f);
         after.twist = choose(twists, flush_tiny(before.twist + stopping), before.twist);
-        v.a.angular = choose(twists, v.a.angular - response_a * stopping, v.a.angular);
-        v.b.angular = choose(twists, v.b.angular + response_b * stopping, v.b.angular);
     }
-    FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
+    vec3 slip = slip_of(r, v, parameters) * k.unit;
+    k.slip1 = dot3(k.t1, slip);
+    k.slip2 = dot3(k.t2, slip);
     // The block's tangents are those of the drive.
     bool driven = is_driven(c);
     if (!none(driven)) {
@@ -247,10 +253,9 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     }
     float inverse = reciprocal(k.k11 * k.k22 - k.k12 * k.k12);
     float bias = anchor.rate * k.unit;
-    float slip1 = k.slip1 + bias * dot3(k.row1.direction, s.impulse.stretch);
-    float slip2 = k.slip2 + bias * dot3(k.row2.direction, s.impulse.stretch);
-    vec3 stop = k.row1.direction * ((k.k22 * slip1 - k.k12 * slip2) * inverse) +
-                k.row2.direction * ((k.k11 * slip2 - k.k12 * slip1) * inverse);
+    float slip1 = k.slip1 + k.turn1 * stopping + bias * dot3(k.t1, s.impulse.stretch);
+    float slip2 = k.slip2 + k.turn2 * stopping + bias * dot3(k.t2, s.impulse.stretch);
+    vec3 stop = k.t1 * ((k.k22 * slip1 - k.k12 * slip2) * inverse) + k.t2 * ((k.k11 * slip2 - k.k12 * slip1) * inverse);
     after.friction = flush_tiny(before.friction - choose(holds, stop + before.friction * anchor.leak, before.friction));
     // Beyond the limit surface?
     float arm = choose(twists, c.twist_arm, 1.0f);
@@ -264,23 +269,16 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     y = smaller(y * y, 4.0f * arm * arm);
     bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {
-        // The slip before the spin was stopped.
-        float undone = stopping * k.unit;
-        k.slip1 = k.slip1 - (dot3(k.row1.angular_a, response_a) + dot3(k.row1.angular_b, response_b)) * undone;
-        k.slip2 = k.slip2 - (dot3(k.row2.angular_a, response_a) + dot3(k.row2.angular_b, response_b)) * undone;
         bool resists = (c.flags & CONSTRAINT_ROLLS_ONLY) != 0u && !(anchor.give > 0.0f);  // spinning, with its own arm
         PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold, resists);
         after.friction = choose(slides, sliding.friction, after.friction);
-        float turned_back = choose(slides && twists, sliding.twist - after.twist, 0.0f);
-        after.twist = after.twist + turned_back;
-        v.a.angular = v.a.angular - response_a * turned_back;
-        v.b.angular = v.b.angular + response_b * turned_back;
+        after.twist = choose(slides && twists, sliding.twist, after.twist);
     }
     // A patch that slides keeps the stretch at which the soft constraint transmits its friction: it can stick at once.
     if (!none(slides)) {
-        float f1 = dot3(k.row1.direction, after.friction), f2 = dot3(k.row2.direction, after.friction);
+        float f1 = dot3(k.t1, after.friction), f2 = dot3(k.t2, after.friction);
         float scale = anchor.give * reciprocal(k.unit);
-        vec3 stretch = k.row1.direction * (k.k11 * f1 + k.k12 * f2) + k.row2.direction * (k.k12 * f1 + k.k22 * f2);
+        vec3 stretch = k.t1 * (k.k11 * f1 + k.k12 * f2) + k.t2 * (k.k12 * f1 + k.k22 * f2);
         s.impulse.stretch = choose(slides, stretch * -scale, s.impulse.stretch);
         s.impulse.turn = choose(slides, -anchor.give * spin_mass * after.twist, s.impulse.turn);
     }
@@ -289,11 +287,11 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     s.impulse.turn = choose(anchored, flush_tiny(s.impulse.turn), 0.0f);
     s.impulse.friction = after.friction;
     s.impulse.twist = after.twist;
-    vec3 change = after.friction - before.friction;
-    s.push = s.push + change;
-    s.moment = s.moment + c.normal * (after.twist - before.twist);
-    s.pair_velocity = pushed(v, k.row1, dot3(k.row1.direction, change), a, a.split, b, b.split);
-    s.pair_velocity = pushed(s.pair_velocity, k.row2, dot3(k.row2.direction, change), a, a.split, b, b.split);
+    Wrench change;
+    change.push = after.friction - before.friction;
+    change.moment = c.normal * (after.twist - before.twist);
+    s.wrench = plus(s.wrench, change);
+    s.pair_velocity = exerted(v, change, r, a, b);
     return s;
 }
 
@@ -305,8 +303,8 @@ LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
     t.impulse.stretch = choose(condition, s.impulse.stretch, t.impulse.stretch);
     t.impulse.turn = choose(condition, s.impulse.turn, t.impulse.turn);
     t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
-    t.push = choose(condition, s.push, t.push);
-    t.moment = choose(condition, s.moment, t.moment);
+    t.wrench.push = choose(condition, s.wrench.push, t.wrench.push);
+    t.wrench.moment = choose(condition, s.wrench.moment, t.wrench.moment);
     return t;
 }
 LAW bool has_friction(Impulse impulse) {
@@ -314,23 +312,17 @@ LAW bool has_friction(Impulse impulse) {
     return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
 }
 
-// The relax pass changes normal impulses, and friction with them where it slides: what lies on the limit surface stays there.
-// `biased`, `normal`: normal impulses before and after, N s.
-LAW SolveResult with_sliding_friction(Constraint c, SolveResult s, float biased, float normal) {
-    float hold = reciprocal(larger(c.friction * biased, LEAST_HOLD));
-    vec3 held = s.impulse.friction * hold;
-    float arm = choose(c.twist_arm > 0.0f, c.twist_arm, 1.0f), area = arm * arm;
-    float x = smaller(dot3(held, held), 4.0f), y = s.impulse.twist * hold;
-    y = smaller(y * y, 4.0f * area);
-    bool slides = c.friction * biased > LEAST_HOLD && x * (area + LIMIT_COUPLING * y) + y > 0.999f * area;
-    float change = choose(slides, normal * reciprocal(larger(biased, LEAST_HOLD)) - 1.0f, 0.0f);
-    vec3 push = s.impulse.friction * change;
-    float twist = s.impulse.twist * change;
-    s.impulse.friction = flush_tiny(s.impulse.friction + push);
-    s.impulse.twist = flush_tiny(s.impulse.twist + twist);
-    s.push = s.push + push;
-    s.moment = s.moment + c.normal * twist;
-    return s;
+// Whether the relax pass, which changes normal impulses by `press` (press_at) to `normal`, solves friction anew: where it bears
+// more than the one part of its limit, or the load has changed by more than the other. (A patch that sticks under a steady load
+// is at rest after the biased pass.)
+CONSTANT float NEAR_LIMIT = 0.8f, CHANGED = 0.02f;
+LAW bool rubs_anew(Constraint c, Impulse impulse, vec3 press, float normal) {
+    float hold = reciprocal(larger(c.friction * normal, LEAST_HOLD));
+    vec3 held = impulse.friction * hold;
+    float arm = choose(c.twist_arm > 0.0f, c.twist_arm, 1.0f), area = arm * arm, turned = impulse.twist * hold;
+    bool may_slide = dot3(held, held) * area + smaller(turned * turned, 1.0e30f) > NEAR_LIMIT * NEAR_LIMIT * area;
+    float change = larger(abs(press.x) * arm, larger(abs(press.y), abs(press.z)));
+    return may_slide || change > CHANGED * normal * arm || c.rolling_resistance > 0.0f;
 }
 
 LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool biased,

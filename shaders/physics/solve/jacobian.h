@@ -1,4 +1,4 @@
-// Contact Jacobian rows: lever arms, effective masses, and velocity changes by an impulse at a point.
+// What a contact reads and changes: the velocities of its two bodies, their lever arms, and what a pass exerts.
 #ifndef SCREE_PHYSICS_JACOBIAN_H
 #define SCREE_PHYSICS_JACOBIAN_H
 
@@ -17,15 +17,6 @@ LAW VelocityPair choose(bool condition, VelocityPair v, VelocityPair w) {
     w.b.angular = choose(condition, v.b.angular, w.b.angular);
     return w;
 }
-
-// Of a pass over a contact.
-struct SolveResult {
-    Impulse impulse;
-    VelocityPair pair_velocity;  // of the split bodies, afterwards
-    vec3 speeds;                 // along the normal (normal_rows.h), before friction
-    vec3 push, moment;           // that the pass exerts on B at the centre of the patch, N s and N m s
-    vec4 restarts;               // per point, 1: the next substep begins without its normal impulse
-};
 
 struct LeverArms {
     vec3 a;
@@ -48,53 +39,43 @@ LAW vec3 velocity_at(LeverArms r, VelocityPair v) {
     return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
 }
 
-// A row of the contact Jacobian, with M^-1 J^T. Effective mass and velocity changes come from the same, present lever
-// arms: masses from the start of the step would give a body that flies past another more than it can take.
-struct JacobianRow {
-    vec3 direction;
-    float inverse_effective_mass_a;  // of A alone: 1/m + (r x u).I^-1 (r x u), 1/kg
-    vec3 angular_a;                  // r x u, m
-    float inverse_effective_mass_b;
-    vec3 angular_b;
-    float pad0;
-    vec3 angular_response_a;  // I^-1 (r x u)
-    float pad1;
-    vec3 angular_response_b;
-    float pad2;
+// What a contact exerts on B at the centre of its patch, N s and N m s.
+struct Wrench {
+    vec3 push, moment;
 };
-LAW JacobianRow jacobian_row(LeverArms r, vec3 direction, Mass a, Mass b) {
-    JacobianRow row;
-    row.direction = direction;
-    row.angular_a = cross3(r.a, direction);
-    row.angular_b = cross3(r.b, direction);
-    row.angular_response_a = turned_by(a, row.angular_a);
-    row.angular_response_b = turned_by(b, row.angular_b);
-    row.inverse_effective_mass_a = a.inverse_mass + dot3(row.angular_a, row.angular_response_a);
-    row.inverse_effective_mass_b = b.inverse_mass + dot3(row.angular_b, row.angular_response_b);
-    row.pad0 = 0.0f;
-    row.pad1 = 0.0f;
-    row.pad2 = 0.0f;
-    return row;
+LAW Wrench plus(Wrench a, Wrench b) {
+    a.push = a.push + b.push;
+    a.moment = a.moment + b.moment;
+    return a;
 }
-// J v: the relative velocity (B minus A) along the row.
-LAW float speed_along(JacobianRow row, VelocityPair v) {
-    return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular));
-}
-// Applies `impulse` along the row to split body B and its opposite to A.
-LAW VelocityPair pushed(VelocityPair v, JacobianRow row, float impulse, Mass a, float split_a, Mass b, float split_b) {
-    v.a.linear = v.a.linear - row.direction * (impulse * a.inverse_mass * split_a);
-    v.a.angular = v.a.angular - row.angular_response_a * (impulse * split_a);
-    v.b.linear = v.b.linear + row.direction * (impulse * b.inverse_mass * split_b);
-    v.b.angular = v.b.angular + row.angular_response_b * (impulse * split_b);
-    return v;
-}
-// Applies an angular impulse to split body B and its opposite to A.
-LAW VelocityPair twisted(VelocityPair v, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
-    v.a.angular = v.a.angular - turned_by(a, impulse) * split_a;
-    v.b.angular = v.b.angular + turned_by(b, impulse) * split_b;
-    return v;
-}
+// Of a pass over a contact.
+struct SolveResult {
+    Impulse impulse;
+    VelocityPair pair_velocity;  // of the split bodies, afterwards
+    vec3 speeds;                 // along the normal (normal_rows.h), before friction
+    Wrench wrench;               // that the pass exerts
+    vec4 restarts;               // per point, 1: the next substep begins without its normal impulse
+};
 
+// The velocity changes of the whole (not split) bodies. Both feel the push at the same point.
+LAW VelocityPair changes_by(Wrench wrench, LeverArms r, Mass a, Mass b) {
+    VelocityPair change;
+    change.a.linear = vec3(0.0f) - wrench.push * a.inverse_mass;
+    change.a.angular = vec3(0.0f) - turned_by(a, cross3(r.a, wrench.push) + wrench.moment);
+    change.b.linear = wrench.push * b.inverse_mass;
+    change.b.angular = turned_by(b, cross3(r.b, wrench.push) + wrench.moment);
+    change.a.low_y = change.a.low_z = change.b.low_y = change.b.low_z = 0.0f;
+    return change;
+}
+// The velocities of the split bodies after it.
+LAW VelocityPair exerted(VelocityPair v, Wrench wrench, LeverArms r, Mass a, Mass b) {
+    VelocityPair change = changes_by(wrench, r, a, b);
+    v.a.linear = v.a.linear + change.a.linear * a.split;
+    v.a.angular = v.a.angular + change.a.angular * a.split;
+    v.b.linear = v.b.linear + change.b.linear * b.split;
+    v.b.angular = v.b.angular + change.b.angular * b.split;
+    return v;
+}
 LAWS_END
 
 #endif

@@ -29,8 +29,8 @@ LAW float pressed_of(float shares) {
     return uintBitsToFloat(floatBitsToUint(shares) & 0xFFFF0000u);
 }
 
-// The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal; 1 for a body
-// that no substep has begun with.
+// The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal; 1 for a
+// body that no substep has begun with.
 LAW float split_factor(float shares, float normal_sum, Parameters parameters) {
     float equal = uintBitsToFloat(floatBitsToUint(shares) << 16u);
     float share = choose(equal > 0.0f, equal + smaller(0.5f, pressed_of(shares) * normal_sum), 1.0f);

@@ -29,21 +29,16 @@ LAW vec3 press_at(Constraint c, float impulse, int k) {
 }
 
 struct NormalRows {
-    vec3 u, v;                         // tangents: the axes of the plane
-    vec3 response_a, response_b;       // I^-1 (r x n) of either whole body
     vec3 at_centre, along_u, along_v;  // rows of the inverse effective mass of the split bodies
 };
 LAW NormalRows normal_rows(Constraint c, vec3 d, Mass a, Mass b) {
     LeverArms r = lever_arms(c, c.centre, d);
     vec3 arm_a = cross3(r.a, c.normal), arm_b = cross3(r.b, c.normal);
     NormalRows rows;
-    rows.u = tangent(c.normal);
-    rows.v = cross3(c.normal, rows.u);
-    rows.response_a = turned_by(a, arm_a);
-    rows.response_b = turned_by(b, arm_b);
-    float k00 =
-        (a.inverse_mass + dot3(arm_a, rows.response_a)) * a.split + (b.inverse_mass + dot3(arm_b, rows.response_b)) * b.split;
-    vec3 turning = rows.response_a * a.split + rows.response_b * b.split;
+    vec3 u = tangent(c.normal), v = cross3(c.normal, u);
+    vec3 response_a = turned_by(a, arm_a), response_b = turned_by(b, arm_b);
+    float k00 = (a.inverse_mass + dot3(arm_a, response_a)) * a.split + (b.inverse_mass + dot3(arm_b, response_b)) * b.split;
+    vec3 turning = response_a * a.split + response_b * b.split;
     Mass both = a;
     both.xx = a.xx * a.split + b.xx * b.split;
     both.xy = a.xy * a.split + b.xy * b.split;
@@ -51,11 +46,11 @@ LAW NormalRows normal_rows(Constraint c, vec3 d, Mass a, Mass b) {
     both.yy = a.yy * a.split + b.yy * b.split;
     both.yz = a.yz * a.split + b.yz * b.split;
     both.zz = a.zz * a.split + b.zz * b.split;
-    vec3 about_u = turned_by(both, rows.u), about_v = turned_by(both, rows.v);
-    float k01 = -dot3(rows.v, turning), k02 = dot3(rows.u, turning), k12 = -dot3(rows.u, about_v);
+    vec3 about_u = turned_by(both, u), about_v = turned_by(both, v);
+    float k01 = -dot3(v, turning), k02 = dot3(u, turning), k12 = -dot3(u, about_v);
     rows.at_centre = vec3(k00, k01, k02);
-    rows.along_u = vec3(k01, dot3(rows.v, about_v), k12);
-    rows.along_v = vec3(k02, k12, dot3(rows.u, about_u));
+    rows.along_u = vec3(k01, dot3(v, about_v), k12);
+    rows.along_v = vec3(k02, k12, dot3(u, about_u));
     return rows;
 }
 // What an impulse of 1 at point k changes of the three speeds.
@@ -65,22 +60,14 @@ LAW vec3 response_at(NormalRows rows, Constraint c, int k) {
 LAW vec3 response_to(NormalRows rows, vec3 press) {
     return rows.at_centre * press.x + (rows.along_u * press.y + rows.along_v * press.z);
 }
-// The velocities of the split bodies after impulses along the normal. `press`: their sum by press_at().
-LAW VelocityPair pressed(VelocityPair v, Constraint c, NormalRows rows, vec3 press, Mass a, Mass b) {
-    vec3 moment = rows.u * press.z - rows.v * press.y;
-    v.a.linear = v.a.linear - c.normal * (press.x * a.inverse_mass * a.split);
-    v.a.angular = v.a.angular - (rows.response_a * press.x + turned_by(a, moment)) * a.split;
-    v.b.linear = v.b.linear + c.normal * (press.x * b.inverse_mass * b.split);
-    v.b.angular = v.b.angular + (rows.response_b * press.x + turned_by(b, moment)) * b.split;
-    return v;
-}
 // What the normal impulses of a pass exert. `speeds`: afterwards.
-LAW SolveResult result_of(Constraint c, NormalRows rows, Impulse impulse, vec3 speeds, vec3 press) {
+LAW SolveResult result_of(Constraint c, Impulse impulse, vec3 speeds, vec3 press) {
     SolveResult result;
     result.impulse = impulse;
     result.speeds = speeds;
-    result.push = c.normal * press.x;
-    result.moment = rows.u * press.z - rows.v * press.y;
+    result.wrench.push = c.normal * press.x;
+    vec3 u = tangent(c.normal);
+    result.wrench.moment = u * press.z - cross3(c.normal, u) * press.y;
     result.restarts = vec4(0.0f);
     return result;
 }

@@ -32,7 +32,10 @@ layout(constant_id = 3) const uint VARIANT = 0u;
 // zero.
 Constraint narrowed(Constraint c) {
     if (!BOUNCES) c.restitution = 0.0f;
-    if (!BLOCKS) c.links = 0u;
+    if (!BLOCKS) {
+        c.links = 0u;
+        c.flags = c.flags & ~(CONSTRAINT_FOLLOWS | CONSTRAINT_LEADS);
+    }
     if (!ROLLS) c.rolling_resistance = 0.0f;
     if ((FEATURES & FEATURE_ROUND) == 0u) c.flags = c.flags & ~CONSTRAINT_ROUND;
     if ((FEATURES & FEATURE_TYRES) == 0u) c.tyre_slip = 0.0f;
