@@ -31,7 +31,7 @@ struct MovedBody {
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
-    return {state.id_of(row),      state.sleep_states[row],       state.properties[row], state.poses[row],
+    return {state.id_of(row),      state.sleep_states[row],  state.properties[row], state.poses[row],
             state.velocities[row], state.masses[row].shares, state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {

@@ -107,7 +107,7 @@ DemoScene steep(const DemoOptions&) {
         add(sliding, box_at({}, flat), flat.y, mu, incline.along() - static_cast<double>(mu) * incline.across());
     for (const Body& body : round_bodies()) add(rolling, body, radius_of(body), 0.9f, incline.along() * going_part(body));
     const vec3 low(-7, 0, -8.6f), high(7, 11, 8.6f);
-    Promise promise(all_accelerate("sliding boxes at 40 degrees", sliding, 0.3, 0.00035),
+    Promise promise(all_accelerate("sliding boxes at 40 degrees", sliding, 0.3, 0.0002),
                     all_accelerate("what rolls down 40 degrees", rolling, 0.3, 0.16));
     return {std::move(scene), view_of(low, high, 50, 20), low, high, 2, std::move(promise).watching(watched)};
 }
@@ -136,7 +136,7 @@ DemoScene rolling(const DemoOptions&) {
     }
     for (Body& body : scene.bodies) body.position.z -= (z - 1.8f - 8) / 2;
     const vec3 low(-2.6f, 0, -11), high(2.6f, 1.6f, 11);
-    Promise promise(all_roll_to_rest("round bodies", bodies, 0.125));
+    Promise promise(all_roll_to_rest("round bodies", bodies, 0.1));
     return awake({std::move(scene), view_of(low, high, 60, 30), low, high, 11, std::move(promise)});
 }
 

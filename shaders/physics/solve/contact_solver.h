@@ -60,13 +60,13 @@ LAW uint sweeps_of(Constraint c, vec3 speeds, Mass a, Mass b, Parameters paramet
     return choose(point_count(c) > 1u && is_fast(speed, parameters), uint(IMPACT_SWEEPS), 1u);
 }
 // Shares of the mass for another relaxation of the iteration. In the biased pass over-relaxed shares overshoot along the normal,
-// and the relax pass takes that back. What one pass alone solves may not overshoot.
+// and the relax pass takes that back. What a single pass solves may not overshoot.
 LAW Mass with_relaxation(Mass mass, bool condition, float relaxation, Parameters parameters) {
     float split = mass.split * reciprocal(parameters.inverse_relaxation * relaxation);
     mass.split = choose(condition && mass.split > 1.0f, split, mass.split);
     return mass;
 }
-// Friction is solved in the biased pass alone: with a relaxation of w the error of its warm start changes in a substep by
+// Most friction is solved in the biased pass alone: with a relaxation of w the error of its warm start changes in a substep by
 // 1 - w +- sqrt(w^2 - w), so it grows above 4/3. (At 1, one heap of assorted shapes in ten crept until a body fell.)
 CONSTANT float FRICTION_RELAXATION = 0.8f;
 
@@ -150,15 +150,14 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
 // has stopped, and throw it back while they fall. So a point that parts starts the next substep with none, where the impulse of
 // its contact falls by more than a blow's part. Both limits in what gravity adds to a speed in a substep: of the parting, and of
 // the change that the fallen impulse makes to the lighter body. (Without, what fell upon light bodies rose with 43% of its speed
-// in the mean, now with 14%; without FALLING columns and coins fall.)
+// in the mean, now with 13%; without FALLING columns and coins fall.)
 CONSTANT float PARTING = 1.5f, FALLING = 5.0f;
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
 // applies restitution and friction. `part`: part_of_stiffness().
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b,
                               ImpactContext around, float part, Parameters parameters) {
-    // Friction that sticks is solved in the biased pass alone. A block solves its contacts one after the other, in the biased
-    // pass from the first to the last, so it solves theirs backwards here.
+    // A block solves its contacts one after the other: in the biased pass from the first to the last, here backwards.
     bool struck = is_impact(impulse), in_block = follows_in_block(c) || leads_in_block(c);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;

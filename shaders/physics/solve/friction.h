@@ -315,12 +315,13 @@ LAW bool has_friction(Impulse impulse) {
 // Whether the relax pass, which changes normal impulses by `press` (press_at) to `normal`, solves friction anew: where it bears
 // more than the one part of its limit, or the load has changed by more than the other. (A patch that sticks under a steady load
 // is at rest after the biased pass.)
-CONSTANT float NEAR_LIMIT = 0.8f, CHANGED = 0.02f;
+CONSTANT float NEAR_LIMIT = 0.64f;  // squared
+CONSTANT float CHANGED = 0.02f;
 LAW bool rubs_anew(Constraint c, Impulse impulse, vec3 press, float normal) {
     float hold = reciprocal(larger(c.friction * normal, LEAST_HOLD));
     vec3 held = impulse.friction * hold;
     float arm = choose(c.twist_arm > 0.0f, c.twist_arm, 1.0f), area = arm * arm, turned = impulse.twist * hold;
-    bool may_slide = dot3(held, held) * area + smaller(turned * turned, 1.0e30f) > NEAR_LIMIT * NEAR_LIMIT * area;
+    bool may_slide = dot3(held, held) * area + smaller(turned * turned, 1.0e30f) > NEAR_LIMIT * area;
     float change = larger(abs(press.x) * arm, larger(abs(press.y), abs(press.z)));
     return may_slide || change > CHANGED * normal * arm || c.rolling_resistance > 0.0f;
 }

@@ -24,7 +24,7 @@ LAW float fall_speed(Parameters parameters) {
 // left with up to 140 times their energy.
 CONSTANT float BLOW = 50.0f;
 LAW bool is_under_blow(BodyMass body, Parameters parameters) {
-    return body.inverse_mass > 2.0f * BLOW * fall_speed(parameters) * pressed_of(body.shares);
+    return 0.5f * body.inverse_mass > BLOW * (fall_speed(parameters) * pressed_of(body.shares));
 }
 
 // Of a contact with restitution, in a pass.
