@@ -7,6 +7,7 @@
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/time_of_impact.h"
 #include "shaders/physics/solve/contact.h"
+#include "shaders/physics/solve/motion.h"
 
 namespace scree::reference {
 
@@ -163,7 +164,7 @@ void clamp_to_impact(State& state, const Threads& threads, std::uint32_t) {
         const physics::ClampedMotion after = physics::clamp_motion(state.bounds[i].sweep, state.poses[i], state.velocities[i],
                                                                    state.properties[i], state.forces[i], stop);
         state.poses[i] = after.pose;
-        state.velocities[i] = after.velocity;
+        state.velocities[i] = physics::held_velocity(after.velocity, state.fixed());  // the clamped pose may spin a needle up
     });
 }
 

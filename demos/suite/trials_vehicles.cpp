@@ -143,7 +143,7 @@ void add_parked(Roadtest& test) {
     test.scene.vehicles[parked].controls.hand_brake = 1;
     const std::size_t slot = test.slot(parked);
     test.claims.push_back(at_most(
-        "drift of a car parked on a slope of 12 degrees", 0.000025, "m", "from 1 s to the end, 21 s", [slot](const Trace& trace) {
+        "drift of a car parked on a slope of 12 degrees", 0.00006, "m", "from 1 s to the end, 21 s", [slot](const Trace& trace) {
             for (const Trace::Moment& moment : trace.moments)
                 if (moment.time >= 1)
                     return static_cast<double>(

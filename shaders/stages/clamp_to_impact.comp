@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
@@ -13,5 +14,5 @@ void main() {
     ClampedMotion after =
         clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(properties, i), READ(forces, i), stop);
     poses.at[i] = after.pose;
-    velocities.at[i] = after.velocity;
+    velocities.at[i] = held_velocity(after.velocity, PARAMETERS);
 }

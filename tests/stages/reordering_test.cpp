@@ -75,7 +75,7 @@ TEST_CASE("demos whose bodies change rows every few steps give the same bits on 
 }
 
 TEST_CASE("sleepers that change rows are struck and deserted with the same bits on both processors", "[process:changes]") {
-    Settings light = tests::coarse();
+    Settings light;
     light.sleep_time = 0.08f;
     light.sleep_speed = 0.2f;
     for (const int bodies : {60, 300}) {
