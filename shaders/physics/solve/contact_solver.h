@@ -70,9 +70,11 @@ LAW Mass with_relaxation(Mass mass, bool condition, float relaxation, Parameters
 // 1 - w +- sqrt(w^2 - w), so it grows above 4/3. (At 1, one heap of assorted shapes in ten crept until a body fell. Where the
 // relax pass had 1.5, one pile of boxes in six kept a box that swayed by 3 mm/s.)
 CONSTANT float FRICTION_RELAXATION = 0.8f;
-LAW SolveResult rubbed(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool biased, Parameters parameters) {
-    return solve_patch_friction(c, s, normal, with_relaxation(a, true, FRICTION_RELAXATION, parameters),
-                                with_relaxation(b, true, FRICTION_RELAXATION, parameters), biased, parameters);
+// `struck`: in an impact, which nothing corrects afterwards.
+LAW SolveResult rubbed(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool struck, bool biased,
+                       Parameters parameters) {
+    return solve_patch_friction(c, s, normal, with_relaxation(a, !struck, FRICTION_RELAXATION, parameters),
+                                with_relaxation(b, !struck, FRICTION_RELAXATION, parameters), biased, parameters);
 }
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
@@ -124,7 +126,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         result.impulse =
             after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
     result.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
-    return rubbed(c, result, normal_impulse(impulse), a, b, true, parameters);
+    return rubbed(c, result, normal_impulse(impulse), a, b, false, true, parameters);
 }
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
@@ -214,7 +216,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     if (!none(rubs)) {
         SolveResult moves = result;
         moves.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
-        result = choose(rubs, rubbed(c, moves, normal, a, b, false, parameters), result);
+        result = choose(rubs, rubbed(c, moves, normal, a, b, struck, false, parameters), result);
     }
     float fall = impulse.normal_sum - normal;
     bool restarts = fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
