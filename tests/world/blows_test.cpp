@@ -90,7 +90,7 @@ double greatest_energy(const Blow& blow, std::uint32_t seed) {
 
 }  // namespace
 
-// Measured: of 480 blows each, none gains with restitution 0 and 0.5, 1 with 1 (1.245 times). When contacts also began in the
+// Measured: of 480 blows each, none gains with restitution 0 and 0.5, 1 with 1 (1.212 times). When contacts also began in the
 // relax pass, and counted only while they were near, 19 gained with 0 and 4 with 1, up to 232 times.
 TEST_CASE("a heavy body that falls upon a light one on several supports leaves with no more energy than it brought") {
     for (const float restitution : {0.0f, 0.5f, 1.0f}) {
@@ -109,7 +109,7 @@ TEST_CASE("a heavy body that falls upon a light one on several supports leaves w
                         }
         CAPTURE(restitution, gained, blows, worst);
         CHECK(worst > 0.99);
-        CHECK(worst < 1.3);
+        CHECK(worst < 1.25);
         CHECK(gained <= (restitution == 1 ? 1 : 0));
     }
 }
@@ -151,7 +151,7 @@ double rebound(int light, float ratio, float speed, bool balls, std::uint32_t se
 }  // namespace
 
 // The impulses of a blow converge in several substeps, and restart when what they have stopped leaves (contact_solver.h).
-// Measured: 0.130 in the mean, 0.33 at worst; without restarts 0.43 and 0.59.
+// Measured: 0.132 in the mean, 0.34 at worst; without restarts 0.43 and 0.59.
 TEST_CASE("what falls upon lighter bodies without restitution hardly rises again") {
     double sum = 0, worst = 0;
     int falls = 0;

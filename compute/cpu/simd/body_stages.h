@@ -96,9 +96,9 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         const Indices live = bodies.only(living(first, last));
         const Velocity velocity =
             integrate_velocity(gather<Velocity>(tables.velocities, bodies), change, group.load, group.properties, p);
-        const Float state = pack_shares(sum.weight, sum.normal_impulse);
+        const Float shares = pack_shares(sum.weight, sum.normal_impulse);
         scatter(tables.velocities, live, velocity);
-        scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, shares), state);
+        scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, shares), shares);
     }
 }
 

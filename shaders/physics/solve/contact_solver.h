@@ -71,8 +71,8 @@ LAW Mass with_relaxation(Mass mass, bool condition, float relaxation, Parameters
 // relax pass had 1.5, one pile of boxes in six kept a box that swayed by 3 mm/s.)
 CONSTANT float FRICTION_RELAXATION = 0.8f;
 // `struck`: in an impact, which nothing corrects afterwards.
-LAW SolveResult rubbed(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool struck, bool biased,
-                       Parameters parameters) {
+LAW SolveResult solve_relaxed_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool struck, bool biased,
+                                       Parameters parameters) {
     return solve_patch_friction(c, s, normal, with_relaxation(a, !struck, FRICTION_RELAXATION, parameters),
                                 with_relaxation(b, !struck, FRICTION_RELAXATION, parameters), biased, parameters);
 }
@@ -126,7 +126,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         result.impulse =
             after_compression(c, impulse, striking, normal_before, speeds_before, speeds, rows, a, b, around, parameters);
     result.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
-    return rubbed(c, result, normal_impulse(impulse), a, b, false, true, parameters);
+    return solve_relaxed_friction(c, result, normal_impulse(impulse), a, b, false, true, parameters);
 }
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
@@ -212,11 +212,11 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     SolveResult result = result_of(c, impulse, speeds, press);
     result.pair_velocity = v;
     float normal = normal_impulse(impulse);
-    bool rubs = struck || in_block || rubs_anew(c, impulse, press, normal);
-    if (!none(rubs)) {
+    bool again = struck || in_block || needs_friction_again(c, impulse, press, normal);
+    if (!none(again)) {
         SolveResult moves = result;
         moves.pair_velocity = exerted(v, result.wrench, lever_arms(c, c.centre, impulse.center_offset), a, b);
-        result = choose(rubs, rubbed(c, moves, normal, a, b, struck, false, parameters), result);
+        result = choose(again, solve_relaxed_friction(c, moves, normal, a, b, struck, false, parameters), result);
     }
     float fall = impulse.normal_sum - normal;
     bool restarts = fall * larger(a.inverse_mass, b.inverse_mass) > FALLING * fall_speed(parameters);
@@ -226,11 +226,11 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
 
 // All that a contact exerts.
 LAW Wrench wrench_of(Constraint c, Impulse impulse) {
-    vec3 press = vec3(0.0f), u = tangent(c.normal);
+    vec3 press = vec3(0.0f);
     for (int k = 0; k < 4; ++k) press = press + press_at(c, impulse.normal[k], k);
-    Wrench wrench;
-    wrench.push = c.normal * press.x + impulse.friction;
-    wrench.moment = (u * press.z - cross3(c.normal, u) * press.y) + (impulse.rolling + c.normal * impulse.twist);
+    Wrench wrench = wrench_of_press(c, press);
+    wrench.push = wrench.push + impulse.friction;
+    wrench.moment = wrench.moment + (impulse.rolling + c.normal * impulse.twist);
     return wrench;
 }
 // The warm start of a substep: what the impulses of the last one change.

@@ -317,7 +317,7 @@ LAW bool has_friction(Impulse impulse) {
 // is at rest after the biased pass.)
 CONSTANT float NEAR_LIMIT = 0.64f;  // squared
 CONSTANT float CHANGED = 0.02f;
-LAW bool rubs_anew(Constraint c, Impulse impulse, vec3 press, float normal) {
+LAW bool needs_friction_again(Constraint c, Impulse impulse, vec3 press, float normal) {
     float hold = reciprocal(larger(c.friction * normal, LEAST_HOLD));
     vec3 held = impulse.friction * hold;
     float arm = choose(c.twist_arm > 0.0f, c.twist_arm, 1.0f), area = arm * arm, turned = impulse.twist * hold;

@@ -76,6 +76,7 @@ LAW VelocityPair exerted(VelocityPair v, Wrench wrench, LeverArms r, Mass a, Mas
     v.b.angular = v.b.angular + change.b.angular * b.split;
     return v;
 }
+
 LAWS_END
 
 #endif

@@ -60,14 +60,20 @@ LAW vec3 response_at(NormalRows rows, Constraint c, int k) {
 LAW vec3 response_to(NormalRows rows, vec3 press) {
     return rows.at_centre * press.x + (rows.along_u * press.y + rows.along_v * press.z);
 }
-// What the normal impulses of a pass exert. `speeds`: afterwards.
+// What impulses along the normal exert. `press`: their sum by press_at().
+LAW Wrench wrench_of_press(Constraint c, vec3 press) {
+    vec3 u = tangent(c.normal);
+    Wrench wrench;
+    wrench.push = c.normal * press.x;
+    wrench.moment = u * press.z - cross3(c.normal, u) * press.y;
+    return wrench;
+}
+// After the normal impulses of a pass. `speeds`: those that they leave.
 LAW SolveResult result_of(Constraint c, Impulse impulse, vec3 speeds, vec3 press) {
     SolveResult result;
     result.impulse = impulse;
     result.speeds = speeds;
-    result.wrench.push = c.normal * press.x;
-    vec3 u = tangent(c.normal);
-    result.wrench.moment = u * press.z - cross3(c.normal, u) * press.y;
+    result.wrench = wrench_of_press(c, press);
     result.restarts = vec4(0.0f);
     return result;
 }
