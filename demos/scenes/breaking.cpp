@@ -189,7 +189,7 @@ DemoScene glass(const DemoOptions& options) {
                             [thick](const Trace& trace) { return trace.end.at(thick).exists ? 0.0 : 1.0; }),
                     between("how far the ball got", gap * (panes - 2), gap * (panes - 1), "m",
                             "its front, at any time: behind the sixth pane",
-                            [radius](const Trace& trace) {
+                            [](const Trace& trace) {
                                 double farthest = no_number;
                                 for (const Trace::Moment& moment : trace.moments)
                                     farthest =
