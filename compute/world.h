@@ -409,7 +409,7 @@ public:
     // On several ranks, collective: shares the world out now where that can be, and not only after some steps without a look at
     // the whole. Else does nothing.
     void share_out();
-    const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date
+    const State& state() const;  // all tables of a step (compute/tables/state.h), bodies and contacts up to date
     // XXH64 over position, orientation, velocity and angular velocity in id order; if bodies may break, also over which exist.
     std::uint64_t state_hash() const;
 

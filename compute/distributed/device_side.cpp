@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {

@@ -10,8 +10,8 @@
 
 #include "compute/distributed/halo.h"
 #include "compute/staged_runner.h"
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/gathering.h"
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_slices.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 
 #include "compute/distributed/ownership.h"
 #include "compute/distributed/packing.h"
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "compute/distributed/packing.h"
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/share.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -126,14 +126,14 @@ private:
 };
 
 void drop_caches(State& state) {
-    release(state.partners);
-    release(state.partners_before);
-    release(state.row_kinds);
-    state.near_rows = {};
-    release(state.movable_bodies);
-    release(state.driven_bodies);
-    release(state.paces);
-    release(state.lane_bodies);
+    release(state.scratch.partners);
+    release(state.scratch.partners_before);
+    release(state.scratch.row_kinds);
+    state.scratch.near_rows = {};
+    release(state.scratch.movable_bodies);
+    release(state.scratch.driven_bodies);
+    release(state.scratch.paces);
+    release(state.scratch.lane_bodies);
 }
 
 // The rows of parts follow those of bodies.

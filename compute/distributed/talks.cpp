@@ -4,7 +4,7 @@
 
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/packing.h"
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_slices.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/scene_compiler.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/fracture.h"
-#include "compute/step/scene_compiler.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
 

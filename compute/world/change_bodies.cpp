@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/state_editor.h"
 #include "compute/fields/body.h"
 #include "compute/fields/check.h"
 #include "compute/scene/validator.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"

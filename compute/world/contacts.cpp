@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/sensors.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"

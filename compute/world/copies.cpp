@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/compile/joint_blocks.h"
+#include "compute/compile/scene_compiler.h"
 #include "compute/statistics.h"
-#include "compute/step/joint_blocks.h"
-#include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/extra/sleep.h"

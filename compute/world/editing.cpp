@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/compile/scene_compiler.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/scene_compiler.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/joint_blocks.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/joint_validation.h"
-#include "compute/step/joint_blocks.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

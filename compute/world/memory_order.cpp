@@ -1,7 +1,7 @@
 // World: when to reorder bodies in memory.
 #include <utility>
 
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

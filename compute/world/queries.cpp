@@ -7,10 +7,10 @@
 #include <string>
 #include <tuple>
 
+#include "compute/parallel/threads.h"
 #include "compute/scene/bounds_tree.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene/validator.h"
-#include "compute/step/threads.h"
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "compute/parallel/threads.h"
 #include "compute/queries.h"
-#include "compute/step/ray_task.h"
-#include "compute/step/threads.h"
+#include "compute/scene/ray_task.h"
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"

@@ -1,8 +1,8 @@
 // World: its present scene, of all bodies or of one copy.
 #include <utility>
 
+#include "compute/compile/joint_blocks.h"
 #include "compute/scene/fracture.h"
-#include "compute/step/joint_blocks.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "compute/step/scene_compiler.h"
-#include "compute/step/table_layout.h"
+#include "compute/compile/scene_compiler.h"
+#include "compute/tables/table_layout.h"
 #include "compute/world/state_check.h"
 #include "shaders/physics/base/work_counts.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 #include "compute/world/byte_stream.h"
 #include "compute/world/state_bytes.h"
 

@@ -9,10 +9,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "compute/compile/scene_compiler.h"
 #include "compute/scene/fracture.h"
 #include "compute/statistics.h"
-#include "compute/step/memory_order.h"
-#include "compute/step/scene_compiler.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/quarantine.h"

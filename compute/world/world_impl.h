@@ -18,7 +18,7 @@
 #include "compute/scene/copies.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/statistics.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/world.h"
 #include "compute/world/events.h"
 #include "compute/world/query_scene.h"

@@ -4,7 +4,7 @@
 // Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of quads (16 bytes),
 // because devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset is where each begins,
 // and shaders/stages/lib/words.glsl and quads.glsl access them. On the host every table is a vector
-// (compute/step/state.h).
+// (compute/tables/state.h).
 //
 // *_before are the contacts of the last step: their buffers and those without the suffix are swapped after every step.
 #ifndef SCREE_STAGES_TABLES_H
