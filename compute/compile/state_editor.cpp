@@ -132,13 +132,10 @@ TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
     physics::Parameters& p = state_.fixed();
     const std::uint32_t first = p.first_part, count = std::max({16u, first / 2, bodies});
     const auto insert = [&](auto& table, const auto& record) { table.insert(table.begin() + first, count, record); };
-    insert(state_.properties, physics::BodyProperties{});
-    for (std::uint32_t row = first; row < first + count; ++row) state_.properties[row] = spare_row(row);
-    insert(state_.poses, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)});
-    insert(state_.velocities, physics::Velocity{});
-    insert(state_.sleep_states, 0u);
-    insert(state_.strains, 0.0f);
-    insert(state_.masses, physics::BodyMass{});
+#define SCREE_INSERT(name, travel) insert(state_.name, physics::records::name{});
+    SCREE_LASTING_OF_ROWS(SCREE_INSERT)
+#undef SCREE_INSERT
+    for (std::uint32_t row = first; row < first + count; ++row) empty_row(row, row);
     // Spare rows have no contacts: an empty range.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
     TableRanges changed;
@@ -185,7 +182,6 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
         state_.properties.resize(std::max(rows_before, row + 1));  // an empty table has a record all the same
     }
     state_.properties[row] = compiler.properties_of(body, row);
-    if (!appended) begin_mass(row, changed);
     std::uint32_t first_part = std::max(rows_before, row + 1);
     compiler.append_parts(body, row);
     const auto parts = static_cast<std::uint32_t>(state_.properties.size()) - first_part;
@@ -200,21 +196,20 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
     }
     p.bodies = static_cast<std::uint32_t>(state_.properties.size());
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
-    for (const Table table : {Table::masses, Table::first_contacts}) state_.make(table);
+    state_.make(Table::first_contacts);
     state_.allocate();
+    clear_row(row);
     state_.poses[row] = SceneCompiler::start_of(body);
     state_.velocities[row] = SceneCompiler::start_velocity_of(body);
-    state_.sleep_states[row] = 0;
     state_.strains[row] = SceneCompiler::start_strain_of(body, state_.properties[row]);
-    for (std::uint32_t part = first_part; part < first_part + parts; ++part) compiler.place(part);
+    for (std::uint32_t part = first_part; part < first_part + parts; ++part) {
+        clear_row(part);
+        compiler.place(part);
+    }
     state_.note_content(row, 1);
     state_.note_content(first_part, parts);
-    const auto rewrite = [&](std::uint32_t first, std::uint32_t count) {
-        for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains})
-            changed.push_back({table, first, count});
-    };
-    if (row < rows_before) rewrite(row, 1);
-    if (spare) rewrite(first_part, parts);
+    if (row < rows_before) append_rows(changed, row, 1);
+    if (spare) append_rows(changed, first_part, parts);
     if (state_.properties[row].fracture != physics::NONE)
         changed.push_back({Table::fractures, state_.properties[row].fracture, 1});
     append(changed, surface_ranges(row, 1));
@@ -269,26 +264,24 @@ TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     SceneCompiler compiler(state_);
     for (const std::uint32_t row : rows) {
         compiler.release_surface(state_.properties[row]);
-        state_.properties[row] = spare_row(row < state_.fixed().first_part ? row : 0);
-        state_.poses[row] = {vec3(0), 0, vec4(0, 0, 0, 1)};
-        state_.velocities[row] = {};
-        state_.sleep_states[row] = 0;
-        state_.strains[row] = 0;
+        empty_row(row, row < state_.fixed().first_part ? row : 0);
         add_to_run(runs, Table::properties, row);
     }
-    TableRanges changed = runs;
-    for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::strains})
-        for (TableRange run : runs) {
-            run.table = table;
-            changed.push_back(run);
-        }
+    TableRanges changed;
+    for (const TableRange& run : runs) append_rows(changed, run.first, run.count);
     return changed;
 }
 
-void StateEditor::begin_mass(std::uint32_t row, TableRanges& changed) {
-    state_.make(Table::masses);
-    state_.masses[row] = {};
-    changed.push_back({Table::masses, row, 1});
+// What lasts of a row begins as nothing; its properties stay.
+void StateEditor::clear_row(std::uint32_t row) {
+    const physics::BodyProperties properties = state_.properties[row];
+    RowRecords{.properties = properties}.put(state_, row);
+}
+
+void StateEditor::empty_row(std::uint32_t row, std::uint32_t owner) {
+    clear_row(row);
+    state_.properties[row] = spare_row(owner);
+    state_.poses[row].orientation = vec4(0, 0, 0, 1);
 }
 
 TableRanges StateEditor::change(const Body& body, std::uint32_t id) {

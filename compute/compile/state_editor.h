@@ -49,7 +49,8 @@ private:
     bool has_room_for(std::uint32_t bodies, bool with_parts) const;
     std::pair<std::uint32_t, std::uint32_t> parts_of(std::uint32_t row) const;  // first row, count
     TableRanges surface_ranges(std::uint32_t first, std::uint32_t count) const;
-    void begin_mass(std::uint32_t row, TableRanges& changed);
+    void clear_row(std::uint32_t row);
+    void empty_row(std::uint32_t row, std::uint32_t owner);  // of a body that is not there
     TableRanges rows_added(std::uint32_t first, std::uint32_t count);
 
     State& state_;

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "compute/tables/lasting.h"
+
 namespace scree {
 
 namespace {
@@ -148,19 +150,18 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     std::vector<physics::uint> first_in_rows;
     const bool with_contacts = contacts_too && contacts.size() >= counted().contacts && first_contacts.size() > all;
     if (with_contacts) {
-        contacts_before.resize(contacts.size());
-        impulses_before.resize(impulses.size());
-        impacts_before.resize(impacts.size());
+#define SCREE_RESIZE(name) name##_before.resize(name.size());
+        SCREE_LASTING_OF_CONTACTS(SCREE_RESIZE)
+#undef SCREE_RESIZE
         first_in_rows.resize(first_contacts.size());
         for (std::uint32_t row = 0; row < all; ++row)
             first_in_rows[row + 1] = first_in_rows[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
         threads.for_each(all, [&](std::size_t row) {
             std::uint32_t place = first_in_rows[row];
             for (std::uint32_t k = first_contacts[from[row]]; k < first_contacts[from[row] + 1]; ++k, ++place) {
-                contacts_before[place] = contacts[k];
+                ContactRecords::of(*this, k).put_before(*this, place);
                 follow(contacts_before[place].a);
                 follow(contacts_before[place].b);
-                keep_impulse_before(place, impulse(k));
             }
         });
     }
@@ -171,12 +172,9 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
         threads.for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
         threads.for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
     };
-    take(properties);
-    take(poses);
-    take(velocities);
-    take(sleep_states);
-    take(strains);
-    take(masses);
+#define SCREE_TAKE(name, travel) take(name);
+    SCREE_LASTING_OF_ROWS(SCREE_TAKE)
+#undef SCREE_TAKE
     take(filters);
     for (physics::BodyProperties& row : properties) follow(row.owner);
     for (physics::Joint& joint : joints)

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "compute/tables/lasting.h"
 #include "compute/tables/table_layout.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
@@ -200,8 +201,8 @@ static bool is_of_devices(Table table) {
 void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
-    for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints,
-                              joint_blocks, block_bodies, vehicles, ids, births})
+    for (const Table table : row_tables) make(table);
+    for (const Table table : {parameters, counts, actions, hulls, joints, joint_blocks, block_bodies, vehicles, ids, births})
         make(table);
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
@@ -214,9 +215,9 @@ void State::allocate_all() {
 }
 
 void State::turn_over() {
-    contacts.swap(contacts_before);
-    impulses.swap(impulses_before);
-    impacts.swap(impacts_before);
+#define SCREE_SWAP(name) name.swap(name##_before);
+    SCREE_LASTING_OF_CONTACTS(SCREE_SWAP)
+#undef SCREE_SWAP
 }
 
 // A quarter more; of a long list a sixteenth, as each repeated step costs little beside the steps between.

@@ -112,10 +112,6 @@ struct State : TableVectors {
         impulses[contact] = physics::contact_impulse_of(impulse);
         if (bounces()) impacts[contact] = physics::contact_impact_of(impulse);
     }
-    void keep_impulse_before(std::size_t contact, const physics::Impulse& impulse) {
-        impulses_before[contact] = physics::contact_impulse_of(impulse);
-        if (bounces()) impacts_before[contact] = physics::contact_impact_of(impulse);
-    }
     // Gives the tables of impacts that are here the length that follows from bounces(); records added are 0.
     void fit_impacts();
     // For bounces() that begins between two steps: impacts of the contacts that are there already, none.

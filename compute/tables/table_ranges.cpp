@@ -1,6 +1,9 @@
 // Ranges of the tables by purpose.
 #include "compute/tables/table_ranges.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace scree {
 
 namespace {
@@ -27,6 +30,19 @@ std::size_t bytes_of(const TableRanges& ranges) {
 
 void append(TableRanges& ranges, const TableRanges& more) {
     ranges.insert(ranges.end(), more.begin(), more.end());
+}
+
+TableRanges united(TableRanges ranges) {
+    std::sort(ranges.begin(), ranges.end(),
+              [](const TableRange& a, const TableRange& b) { return std::tie(a.table, a.first) < std::tie(b.table, b.first); });
+    TableRanges found;
+    for (const TableRange& range : ranges) {
+        if (found.empty() || found.back().table != range.table || found.back().first + found.back().count < range.first)
+            found.push_back(range);
+        else
+            found.back().count = std::max(found.back().count, range.first + range.count - found.back().first);
+    }
+    return found;
 }
 
 void append_rows(TableRanges& ranges, std::size_t first, std::size_t count) {
@@ -71,8 +87,8 @@ TableRanges vehicle_ranges(const State& state) {
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : row_tables) ranges.push_back(live_range(state, table));
-    for (const Table table : {Table::contacts, Table::impulses, Table::impacts, Table::first_contacts})
-        ranges.push_back(live_range(state, table));
+    for (const Table table : contact_tables) ranges.push_back(live_range(state, table));
+    ranges.push_back(live_range(state, Table::first_contacts));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));
     return ranges;

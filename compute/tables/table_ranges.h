@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "compute/tables/lasting.h"
 #include "compute/tables/state.h"
 
 namespace scree {
@@ -16,10 +17,6 @@ struct TableRange {
     std::size_t count = 0;  // number of records
 };
 using TableRanges = std::vector<TableRange>;
-
-// The tables of rows that last from step to step: what of a row goes along to other rows, ranks and files.
-inline constexpr std::array row_tables{Table::properties,   Table::poses,   Table::velocities,
-                                       Table::sleep_states, Table::strains, Table::masses};
 
 // Lengths of all tables, and what else a runner adapts to.
 struct TableLengths {
@@ -32,6 +29,7 @@ struct TableLengths {
 
 std::size_t bytes_of(const TableRanges& ranges);
 void append(TableRanges& ranges, const TableRanges& more);
+TableRanges united(TableRanges ranges);  // the same records, each once
 // Appends the same rows of each of row_tables.
 void append_rows(TableRanges& ranges, std::size_t first, std::size_t count);
 

@@ -19,20 +19,14 @@ const std::array<TableInfo, table_count>& table_infos() {
 }
 
 Table other_parity(Table table) {
-    using enum Table;
     switch (table) {
-        case contacts:
-            return contacts_before;
-        case contacts_before:
-            return contacts;
-        case impulses:
-            return impulses_before;
-        case impulses_before:
-            return impulses;
-        case impacts:
-            return impacts_before;
-        case impacts_before:
-            return impacts;
+#define SCREE_PARITY(name)           \
+    case Table::name:                \
+        return Table::name##_before; \
+    case Table::name##_before:       \
+        return Table::name;
+        SCREE_LASTING_OF_CONTACTS(SCREE_PARITY)
+#undef SCREE_PARITY
         default:
             return table;
     }

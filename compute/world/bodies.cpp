@@ -109,7 +109,7 @@ void World::Impl::keep_original(std::size_t body) {
 
 void World::Impl::send(const TableRanges& changed, const TableLengths& before) {
     if (TableLengths::of(state) != before) runner->adapt();
-    runner->upload(changed);
+    runner->upload(united(changed));
     begin_impacts(before.features);
 }
 

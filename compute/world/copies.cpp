@@ -58,7 +58,7 @@ void World::set_gravity_of(std::size_t copy, vec3 gravity) {
 
 // ---- rows
 // The rows of bodies and parts, as runs.
-TableRanges World::Impl::rows_of_copies(std::span<const std::size_t> which, std::initializer_list<Table> tables) const {
+TableRanges World::Impl::rows_of_copies(std::span<const std::size_t> which, const std::vector<Table>& tables) const {
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy, parts = (p.bodies - p.first_part) / p.copies;
     std::vector<std::size_t> rows;
@@ -97,9 +97,8 @@ void World::Impl::wake_copy(std::size_t copy) {
 
 // ---- back to the start
 void World::Impl::keep_start() {
-    start.poses = state.poses;
-    start.velocities = state.velocities;
-    start.strains = state.strains;
+    start.rows.clear();
+    for (std::size_t row = 0; row < state.fixed().bodies; ++row) start.rows.push_back(RowRecords::of(state, row));
     if (state.fixed().vehicles) start.vehicles = state.vehicles;
 }
 
@@ -128,29 +127,23 @@ void World::Impl::reset(std::span<const std::size_t> which) {
     if (which.empty()) return;
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy;
-    TableRanges changed =
-        rows_of_copies(which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
+    TableRanges changed = rows_of_copies(which, tables_of_owners());
     if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
-    state.make(Table::masses);
-    const auto put_back = [&](std::size_t row, std::size_t place) {
-        state.poses[row] = start.poses[place];
-        state.velocities[row] = start.velocities[place];
-        state.strains[row] = start.strains[place];
-        state.sleep_states[row] = 0;
-        state.masses[row] = {};
-    };
     for (const TableRange& run : rows_of_copies(which, {Table::poses}))
         for (std::size_t row = run.first; row < run.first + run.count; ++row) {
             const std::size_t place = row < p.first_part ? state.id_of(static_cast<std::uint32_t>(row)) : row;
-            put_back(row, place);
+            RowRecords at_start = start.rows[place];
+            at_start.properties = state.properties[row];
+            at_start.put(state, row);
             if (row >= p.first_part) continue;
             Body& body = scene.bodies[place];
             state.properties[row].motion =
                 body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_PENDING;
             if (body.motion != Motion::fixed || std::holds_alternative<Plane>(body.shape)) continue;
-            if (body.position == start.poses[place].position && body.orientation == start.poses[place].orientation) continue;
-            body.position = start.poses[place].position;
-            body.orientation = start.poses[place].orientation;
+            const physics::Pose& pose = at_start.poses;
+            if (body.position == pose.position && body.orientation == pose.orientation) continue;
+            body.position = pose.position;
+            body.orientation = pose.orientation;
             edits.clear();
         }
     const std::size_t vehicles = scene.vehicles.size() / copies();

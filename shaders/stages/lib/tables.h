@@ -104,6 +104,25 @@
     X(26, words, WordsTable, uint, shared) \
     X(27, quads, QuadsTable, uvec4, shared)
 
+// ---- lasting tables: what of a row or contact goes along to later steps, other rows, ranks, copies and files, in the order of
+// checkpoints. Everything that moves them is a loop over these lists (compute/tables/lasting.h).
+//
+// Of rows: table, and how it travels between ranks. All ranks have those alike, but for ranks that have a share of the world; the
+// owner of a body tells those owned when the body goes to another rank or the world is gathered; those of ghosts, also at the
+// start of each step, to ranks that have the body as a ghost.
+#define SCREE_LASTING_OF_ROWS(X) \
+    X(properties, alike)         \
+    X(poses, ghosts)             \
+    X(velocities, ghosts)        \
+    X(sleep_states, ghosts)      \
+    X(strains, owned)            \
+    X(masses, ghosts)
+// Of contacts: table; NAME_before is that of the last step.
+#define SCREE_LASTING_OF_CONTACTS(X) \
+    X(contacts)                      \
+    X(impulses)                      \
+    X(impacts)
+
 // ---- views: table, name of its earlier content
 #define SCREE_VIEWS(X)          \
     X(cell_ends, cell_counts)   \
