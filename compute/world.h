@@ -455,21 +455,11 @@ public:
 private:
     friend void restore_tables(State& state, std::span<const std::byte> saved);
     struct Impl;
-    // Ranks that share the world hold it in parts while it only steps; who looks into it has it whole.
-    class Interior {
-    public:
-        explicit Interior(std::unique_ptr<Impl> impl);
-        Interior(Interior&&) noexcept;
-        Interior& operator=(Interior&&) noexcept;
-        ~Interior();
-        Impl* operator->() const { return &**this; }
-        Impl& operator*() const;
-        Impl& as_it_is() const { return *impl_; }
-
-    private:
-        std::unique_ptr<Impl> impl_;
-    };
-    Interior interior_;
+    // Ranks that share the world hold it in parts while it only steps: what this one has of it, and the world brought together
+    // on every rank, for which all of them are to ask.
+    Impl& local() const { return *impl_; }
+    Impl& whole() const;
+    std::unique_ptr<Impl> impl_;
 };
 
 std::string hash_text(std::uint64_t hash);  // 16 hexadecimal digits

@@ -46,7 +46,7 @@ void World::Impl::set_gravities(const std::vector<vec3>& gravities) {
 }
 
 void World::set_gravity_of(std::size_t copy, vec3 gravity) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_copy(copy);
     gravity = checked(Scene{gravity, {}, {}}).gravity;
     if (!in.state.has_copies()) return set_gravity(gravity);
@@ -166,7 +166,7 @@ void World::Impl::reset(std::span<const std::size_t> which) {
 }
 
 void World::reset(std::span<const std::uint8_t> mask) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_copies("reset");
     if (mask.size() != in.copies())
         throw std::invalid_argument("reset: a mask of " + std::to_string(mask.size()) + " for " + std::to_string(in.copies()) +
@@ -178,56 +178,56 @@ void World::reset(std::span<const std::uint8_t> mask) {
 }
 
 void World::reset_copy(std::size_t copy) {
-    interior_->require_copies("reset");
-    interior_->require_copy(copy);
-    interior_->reset({&copy, 1});
+    whole().require_copies("reset");
+    whole().require_copy(copy);
+    whole().reset({&copy, 1});
 }
 
 // ---- asking
 std::size_t World::copies() const {
-    return interior_.as_it_is().copies();
+    return local().copies();
 }
 std::size_t World::bodies_of_copy() const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     return in.state.has_copies() ? in.state.fixed().bodies_of_copy : in.bodies();
 }
 std::size_t World::body_of(std::size_t copy, std::size_t body) const {
-    interior_->require_copy(copy);
+    whole().require_copy(copy);
     if (body >= bodies_of_copy())
         throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(bodies_of_copy()) + " in a copy");
     return copy * bodies_of_copy() + body;
 }
 std::size_t World::copy_of(std::size_t body) const {
-    interior_->require_body(body);
-    return interior_->copy_of(body);
+    whole().require_body(body);
+    return whole().copy_of(body);
 }
 vec3 World::gravity_of(std::size_t copy) const {
-    interior_->require_copy(copy);
-    return interior_->gravity_of(copy);
+    whole().require_copy(copy);
+    return whole().gravity_of(copy);
 }
 void World::wake_copy(std::size_t copy) {
-    interior_->require_copy(copy);
-    interior_->wake_copy(copy);
+    whole().require_copy(copy);
+    whole().wake_copy(copy);
 }
 
 std::uint64_t World::state_hash_of(std::size_t copy) const {
-    interior_->require_copy(copy);
-    if (!interior_->state.has_copies()) return state_hash();
-    interior_->bring(body_ranges);
-    return hash_of(interior_->state, static_cast<std::uint32_t>(copy));
+    whole().require_copy(copy);
+    if (!whole().state.has_copies()) return state_hash();
+    whole().bring(body_ranges);
+    return hash_of(whole().state, static_cast<std::uint32_t>(copy));
 }
 
 std::vector<std::uint64_t> World::state_hashes() const {
-    if (!interior_->state.has_copies()) return {state_hash()};
-    interior_->bring(body_ranges);
+    if (!whole().state.has_copies()) return {state_hash()};
+    whole().bring(body_ranges);
     std::vector<std::uint64_t> hashes(copies());
-    interior_->runner->threads().for_each(
-        hashes.size(), [&](std::size_t copy) { hashes[copy] = hash_of(interior_->state, static_cast<std::uint32_t>(copy)); });
+    whole().runner->threads().for_each(
+        hashes.size(), [&](std::size_t copy) { hashes[copy] = hash_of(whole().state, static_cast<std::uint32_t>(copy)); });
     return hashes;
 }
 
 Statistics World::statistics_of(std::size_t copy) const {
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     in.require_copy(copy);
     if (!in.state.has_copies()) return statistics();
     in.bring(body_ranges);
