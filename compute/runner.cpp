@@ -1,7 +1,7 @@
 // Common to all runners: counting uploaded bytes, so that tests can limit what an edit uploads, and timing transfers.
 #include "compute/runner.h"
 
-#include "compute/step/table_ranges.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/timeline.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-// Runners execute the plan of a step (compute/step/plan.h), which is the same for all: reference (CPU), device,
+// Runners execute the plan of a step (compute/plan/plan.h), which is the same for all: reference (CPU), device,
 // lockstep.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace scree {
 
-struct State;       // compute/step/state.h
-class Threads;      // compute/step/threads.h
-struct TableRange;  // compute/step/table_ranges.h
-struct RayTask;     // compute/step/ray_task.h
+struct State;       // compute/tables/state.h
+class Threads;      // compute/parallel/threads.h
+struct TableRange;  // compute/tables/table_ranges.h
+struct RayTask;     // compute/scene/ray_task.h
 class Timeline;     // compute/timeline.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
@@ -49,7 +49,7 @@ public:
     virtual void share_out() {}
     virtual void make_whole() {}
     // Instead of attach(), of a world that is shared out from its start: whether ranks can begin so; from the places of its
-    // dynamic bodies on the Morton curve (compute/step/memory_order.h), the first place of every rank but the first; and taking
+    // dynamic bodies on the Morton curve (compute/tables/memory_order.h), the first place of every rank but the first; and taking
     // over a state with rows of what every rank has, and the owners by id. It makes rows for this rank's own bodies, by their
     // ids, and then calls fill().
     virtual bool can_begin_shared() const { return false; }

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/step/joint_blocks.h"
-#include "compute/step/memory_order.h"
+#include "compute/compile/joint_blocks.h"
+#include "compute/tables/memory_order.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_constraint.h"

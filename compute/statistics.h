@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 
 namespace scree {

@@ -409,7 +409,7 @@ public:
     // On several ranks, collective: shares the world out now where that can be, and not only after some steps without a look at
     // the whole. Else does nothing.
     void share_out();
-    const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date
+    const State& state() const;  // all tables of a step (compute/tables/state.h), bodies and contacts up to date
     // XXH64 over position, orientation, velocity and angular velocity in id order; if bodies may break, also over which exist.
     std::uint64_t state_hash() const;
 
@@ -455,21 +455,11 @@ public:
 private:
     friend void restore_tables(State& state, std::span<const std::byte> saved);
     struct Impl;
-    // Ranks that share the world hold it in parts while it only steps; who looks into it has it whole.
-    class Interior {
-    public:
-        explicit Interior(std::unique_ptr<Impl> impl);
-        Interior(Interior&&) noexcept;
-        Interior& operator=(Interior&&) noexcept;
-        ~Interior();
-        Impl* operator->() const { return &**this; }
-        Impl& operator*() const;
-        Impl& as_it_is() const { return *impl_; }
-
-    private:
-        std::unique_ptr<Impl> impl_;
-    };
-    Interior interior_;
+    // Ranks that share the world hold it in parts while it only steps: what this one has of it, and the world brought together
+    // on every rank, for which all of them are to ask.
+    Impl& local() const { return *impl_; }
+    Impl& whole() const;
+    std::unique_ptr<Impl> impl_;
 };
 
 std::string hash_text(std::uint64_t hash);  // 16 hexadecimal digits

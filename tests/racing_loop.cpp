@@ -1,7 +1,7 @@
 // A parallel loop whose ranges race: what the thread sanitizer has to find.
 #include <cstddef>
 
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
 
 int main() {
     const scree::Threads threads(4);

@@ -38,23 +38,23 @@ bool is_driven(const State& state, std::size_t body) {
 
 // Motions and sleep change neither within a step's substeps.
 void list_moving_bodies(State& state) {
-    state.movable_bodies.clear();
-    state.driven_bodies.clear();
+    state.scratch.movable_bodies.clear();
+    state.scratch.driven_bodies.clear();
     if (!physics::any_stirs(state.counted())) return;
     for (std::uint32_t i = 0; i < state.fixed().bodies; ++i) {
         if (moved_by_contacts(state, i))
-            state.movable_bodies.push_back(i);
+            state.scratch.movable_bodies.push_back(i);
         else if (is_driven(state, i))
-            state.driven_bodies.push_back(i);
+            state.scratch.driven_bodies.push_back(i);
     }
 }
 
 void make_room_for_bodies(State& state, std::size_t lanes) {
-    const std::size_t groups = (state.movable_bodies.size() + lanes - 1) / lanes;
-    const std::size_t lines = groups * lanes * words_of_body * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
-    if (state.lane_bodies.size() >= lines) return;
-    state.lane_bodies = {};  // freed first; nothing in it lasts from step to step
-    state.lane_bodies.resize(lines);
+    const std::size_t groups = (state.scratch.movable_bodies.size() + lanes - 1) / lanes;
+    const std::size_t lines = groups * lanes * words_of_body * sizeof(std::uint32_t) / sizeof(CpuScratch::CacheLine) + 1;
+    if (state.scratch.lane_bodies.size() >= lines) return;
+    state.scratch.lane_bodies = {};  // freed first; nothing in it lasts from step to step
+    state.scratch.lane_bodies.resize(lines);
 }
 // Calls range(first, last) for ranges that begin with a group of lanes.
 template <typename Range>
@@ -99,10 +99,11 @@ void move(State& state, std::size_t i) {
 
 void feel_gravities(State& state) {
     if (state.gravities.empty()) return;
-    state.felt.clear();
+    state.scratch.parameters_of_copies.clear();
     for (const physics::uvec4& gravity : state.gravities) {
-        state.felt.push_back(state.fixed());
-        for (int axis = 0; axis < 3; ++axis) state.felt.back().gravity[axis] = std::bit_cast<float>(gravity[axis]);
+        state.scratch.parameters_of_copies.push_back(state.fixed());
+        for (int axis = 0; axis < 3; ++axis)
+            state.scratch.parameters_of_copies.back().gravity[axis] = std::bit_cast<float>(gravity[axis]);
     }
 }
 
@@ -151,7 +152,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
         physics::Velocity& velocity = state.velocities[action.body];
         velocity = physics::velocity_in_substep(velocity, action, left, state.fixed());
     }
-    const std::vector<std::uint32_t>& bodies = state.movable_bodies;
+    const std::vector<std::uint32_t>& bodies = state.scratch.movable_bodies;
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         if (first != 0) make_room_for_bodies(state, static_cast<std::size_t>(wide->lanes));
         WideTables tables = wide_tables(state, bodies);
@@ -172,7 +173,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t pass) {
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
-    const std::vector<std::uint32_t>&driven = state.driven_bodies, &bodies = state.movable_bodies;
+    const std::vector<std::uint32_t>&driven = state.scratch.driven_bodies, &bodies = state.scratch.movable_bodies;
     // At rest for a substep, on the way from one velocity to another, a body keeps every bit.
     threads.for_each(driven.size(), [&](std::size_t k) {
         if (physics::in_motion(state.velocities[driven[k]])) move(state, driven[k]);

@@ -93,7 +93,7 @@ void pose_parts(State& state, const Threads& threads, std::uint32_t) {
 
 void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
-    const WideTables all_tables = wide_tables(state, state.movable_bodies);  // of which ranges set the items
+    const WideTables all_tables = wide_tables(state, state.scratch.movable_bodies);  // of which ranges set the items
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
         std::array<std::uint32_t, 128> rows;
         std::array<std::uint8_t, rows.size()> sweeping;

@@ -172,7 +172,7 @@ void fill_cells(State& state, const Threads& threads, std::uint32_t) {
 
 void sort_cells(State& state, const Threads& threads, std::uint32_t) {
     std::atomic<std::uint32_t> still_entries = 0;
-    state.entry_cells.resize(state.cell_entries.size());
+    state.scratch.entry_cells.resize(state.cell_entries.size());
     threads.for_ranges(physics::buckets_in_all(state.fixed()), [&](std::size_t begin, std::size_t end) {
         std::uint32_t inactive = 0;
         for (std::size_t b = begin; b < end; ++b) {
@@ -182,24 +182,24 @@ void sort_cells(State& state, const Threads& threads, std::uint32_t) {
             for (physics::CellEntry& entry : std::span(first, last)) {
                 entry = entry_of(state, entry.body);
                 inactive += (entry.level & physics::INACTIVE) != 0;
-                state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())] =
+                state.scratch.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())] =
                     physics::cell_of(entry.lower, entry.upper, entry.level & physics::LEVEL_BITS, state.fixed().inverse_cell);
             }
         }
         still_entries.fetch_add(inactive, std::memory_order_relaxed);
     });
-    state.still_entries = still_entries;
+    state.scratch.still_entries = still_entries;
 }
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::size_t bodies = state.fixed().bodies;
-    state.partners.resize(bodies);
+    state.scratch.partners.resize(bodies);
     const std::span counts = state.pair_counts();
     const auto note = [&](std::uint32_t owner, std::uint32_t other, std::uint32_t place) {
-        if (place < State::noted) state.partners[owner][place] = other;
+        if (place < CpuScratch::noted) state.scratch.partners[owner][place] = other;
     };
-    if (state.still_entries < bodies / most_still) {
+    if (state.scratch.still_entries < bodies / most_still) {
         const auto list = [&](std::uint32_t owner, std::uint32_t other) { note(owner, other, taken(threads, counts[owner])); };
         const bool listed = find_near_rows(state, threads);
         threads.for_each(bodies, [&](std::size_t i) {
@@ -227,8 +227,8 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
         auto next = state.candidates.begin() + state.pair_starts[i];
         const auto list = [&](std::uint32_t other) { *next++ = {owner, other}; };
         const std::size_t count = state.pair_starts[i + 1] - state.pair_starts[i];
-        if (count <= State::noted)
-            std::for_each_n(state.partners[i].begin(), count, list);
+        if (count <= CpuScratch::noted)
+            std::for_each_n(state.scratch.partners[i].begin(), count, list);
         else
             for_each_pair<Search::around>(state, owner, [&](std::uint32_t, std::uint32_t other) { list(other); });
     });

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <span>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/grid.h"
 
 namespace scree::reference {
@@ -57,7 +57,7 @@ struct RowOfCells {
     const State& state;
     physics::ivec3 from;
     const physics::ivec3& cell_of(const physics::CellEntry& entry) const {
-        return state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())];
+        return state.scratch.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())];
     }
     bool has(const physics::ivec3& cell) const { return (int{cell.y == from.y} & int{cell.z == from.z}) != 0; }
 };

@@ -238,10 +238,11 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const bool sorted = wide || !state.presence.empty(), blocks = state.features().blocks;
     const bool in_lanes = wide && wide_tables(state, state.contacts_to_solve).warm_starts;
     const SolverClasses classes(state);
-    if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
+    if (sorted)
+        state.scratch.solver_classes.resize(std::max<std::size_t>(state.scratch.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         if (in_lanes && is_solved(state, i)) {
-            state.solver_classes[i] = classes.of_warm_started(i);
+            state.scratch.solver_classes[i] = classes.of_warm_started(i);
             return;
         }
         const physics::Contact& contact = state.contacts[i];
@@ -250,7 +251,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const bool follows = blocks && !idle && shares_block(state, contact) && follows_another(state, i);
         const bool leads = blocks && !idle && !follows && shares_block(state, contact) && next_partner(state, i) != physics::NONE;
         if (sorted)
-            state.solver_classes[i] =
+            state.scratch.solver_classes[i] =
                 idle ? not_solved : classes.of(a, b, contact, state.impulses[i].normal_sum > 0, follows || leads);
         if (follows) return;  // the first contact of its block prepares it
         physics::Constraint& c = state.constraints[i];

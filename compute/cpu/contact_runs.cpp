@@ -48,19 +48,19 @@ void sort_by_copy(State& state) {
     const auto solved = std::span(state.contacts_to_solve).first(state.counted().solver_contacts);
     const auto key = [&](std::uint32_t contact) {
         const std::uint32_t copy = state.copy_of(state.contacts[contact].a);
-        return std::tuple(copy, state.solver_classes[contact], contact);
+        return std::tuple(copy, state.scratch.solver_classes[contact], contact);
     };
     const auto run_of = [&](std::uint32_t contact) {
         const auto [copy, solver_class, self] = key(contact);
-        return State::Run{0, 0, copy, is_of_block(solver_class)};
+        return CpuScratch::Run{0, 0, copy, is_of_block(solver_class)};
     };
     std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
     for (std::uint32_t k = 0; k < solved.size(); ++k) {
-        const State::Run run = run_of(solved[k]);
-        const bool goes_on =
-            k > 0 && state.solver_runs.back().copy == run.copy && state.solver_runs.back().of_blocks == run.of_blocks;
-        if (!goes_on) state.solver_runs.push_back({k, k, run.copy, run.of_blocks});
-        state.solver_runs.back().last = k + 1;
+        const CpuScratch::Run run = run_of(solved[k]);
+        const bool goes_on = k > 0 && state.scratch.solver_runs.back().copy == run.copy &&
+                             state.scratch.solver_runs.back().of_blocks == run.of_blocks;
+        if (!goes_on) state.scratch.solver_runs.push_back({k, k, run.copy, run.of_blocks});
+        state.scratch.solver_runs.back().last = k + 1;
     }
 }
 
@@ -93,14 +93,14 @@ std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {
     const physics::Counts& counts = state.counted();
-    state.solver_runs.clear();
+    state.scratch.solver_runs.clear();
     state.inner_contacts = counts.solver_contacts;
     if (!state.gravities.empty()) return sort_by_copy(state);
     using Places = std::array<std::uint32_t, solver_classes>;
     const auto counts_of = [&](std::size_t first, std::size_t last) {
         Places found{};
         for (std::size_t i = first; i < last; ++i)
-            if (state.solver_classes[i] != not_solved) ++found[state.solver_classes[i]];
+            if (state.scratch.solver_classes[i] != not_solved) ++found[state.scratch.solver_classes[i]];
         return found;
     };
     Places next{};
@@ -115,13 +115,13 @@ void sort_contacts_to_solve(State& state, const Threads& threads) {
         Places places = counts_of(first, last);
         for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(threads, next[k], places[k]);
         for (std::size_t i = first; i < last; ++i)
-            if (state.solver_classes[i] != not_solved)
-                state.contacts_to_solve[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
+            if (state.scratch.solver_classes[i] != not_solved)
+                state.contacts_to_solve[places[state.scratch.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
     });
-    state.solver_runs = {{0, inner_blocks, 0, false},
-                         {inner_blocks, state.inner_contacts, 0, true},
-                         {state.inner_contacts, border_blocks, 0, false},
-                         {border_blocks, counts.solver_contacts, 0, true}};
+    state.scratch.solver_runs = {{0, inner_blocks, 0, false},
+                                 {inner_blocks, state.inner_contacts, 0, true},
+                                 {state.inner_contacts, border_blocks, 0, false},
+                                 {border_blocks, counts.solver_contacts, 0, true}};
 }
 
 namespace {
@@ -135,22 +135,22 @@ std::size_t groups_of(std::size_t contacts, std::size_t lanes) {
 
 // Room for the groups of all contacts to solve; each run ends with a group of its own.
 void make_room_for_groups(State& state, std::size_t lanes) {
-    const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.solver_runs.size();
-    const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
-    if (state.unloaded_groups.size() < groups) state.unloaded_groups.resize(groups + groups / 16);
-    if (state.lane_contacts.size() >= lines) return;
-    state.lane_contacts = {};  // freed first; nothing in it lasts from step to step
-    state.lane_contacts.resize(lines + lines / 16);
+    const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.scratch.solver_runs.size();
+    const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(CpuScratch::CacheLine) + 1;
+    if (state.scratch.unloaded_groups.size() < groups) state.scratch.unloaded_groups.resize(groups + groups / 16);
+    if (state.scratch.lane_contacts.size() >= lines) return;
+    state.scratch.lane_contacts = {};  // freed first; nothing in it lasts from step to step
+    state.scratch.lane_contacts.resize(lines + lines / 16);
 }
 
 void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass,
                     const BlockPass& block_pass) {
     const auto lanes = static_cast<std::size_t>(wide.lanes);
-    const auto begun_before = [&](const State::Run& run, std::uint32_t end) {
+    const auto begun_before = [&](const CpuScratch::Run& run, std::uint32_t end) {
         return groups_of(std::clamp(end, run.first, run.last) - run.first, lanes);
     };
     const auto pass_over = [&](std::size_t k, const auto& share_out) {
-        const State::Run& run = state.solver_runs[k];
+        const CpuScratch::Run& run = state.scratch.solver_runs[k];
         if (run.of_blocks) {
             const std::uint32_t begin = std::clamp(state.passed_first(), run.first, run.last);
             const std::uint32_t end = std::clamp(state.passed_last(), run.first, run.last);
@@ -162,17 +162,18 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
         own.items += run.first;
         own.groups += (run.first / lanes + k) * lanes * words_of_contact;
         own.unloaded += run.first / lanes + k;
-        if (!state.gravities.empty()) own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
+        if (!state.gravities.empty())
+            own.parameters = reinterpret_cast<const std::uint32_t*>(&state.scratch.parameters_of_copies[run.copy]);
         const std::size_t begin = begun_before(run, state.passed_first()), end = begun_before(run, state.passed_last());
         share_out(end - begin, [&](std::size_t first, std::size_t last) {
             pass(own, (begin + first) * lanes, std::min<std::size_t>((begin + last) * lanes, run.last - run.first));
         });
     };
     if (state.gravities.empty()) {
-        for (std::size_t k = 0; k < state.solver_runs.size(); ++k)
+        for (std::size_t k = 0; k < state.scratch.solver_runs.size(); ++k)
             pass_over(k, [&](std::size_t n, const auto& range) { threads.for_ranges(n, range, Threads::grain / lanes); });
     } else {
-        threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
+        threads.for_each(state.scratch.solver_runs.size(), [&](std::size_t k) {
             pass_over(k, [](std::size_t n, const auto& range) { range(std::size_t{0}, n); });
         });
     }

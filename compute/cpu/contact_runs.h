@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "compute/cpu/simd/simd_stages.h"
-#include "compute/step/state.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
+#include "compute/tables/state.h"
 
 namespace scree::reference {
 
@@ -15,7 +15,7 @@ constexpr std::uint8_t not_solved = 0xFF;
 // Whether the contact has a movable body.
 bool is_solved(const State& state, std::size_t contact);
 
-// Classes (State::solver_classes) by which contacts to solve are sorted.
+// Classes (CpuScratch::solver_classes) by which contacts to solve are sorted.
 class SolverClasses {
 public:
     explicit SolverClasses(const State& state);

@@ -20,7 +20,7 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
     const physics::Impulse was = state.impulse_before(pair.previous);
     physics::PreparedContact prepared =
         physics::is_carried_forward(pair.pair_type)
-            ? physics::carried_forward(before, was, state.pair_manifolds[state.contact_pairs[i]])
+            ? physics::carried_forward(before, was, state.scratch.pair_manifolds[state.contact_pairs[i]])
             : physics::warm_started(physics::without_impulses(state.contacts[i]), before, was, ta, tb);
     const physics::uint slot_a = slot_of(state, i, 0), slot_b = slot_of(state, i, 1);
     const bool idle = physics::is_idle(slot_a, slot_b);
@@ -49,8 +49,8 @@ void make_contacts(State& state, const Threads& threads, std::uint32_t) {
         state.contacts[contact] =
             physics::is_carried_forward(pair.pair_type)
                 ? state.contacts_before[pair.previous]
-                : physics::contact_of(pair, state.pair_manifolds[i], state.point_counts[i], state.poses[state.body_of(pair.a)],
-                                      state.poses[state.body_of(pair.b)]);
+                : physics::contact_of(pair, state.scratch.pair_manifolds[i], state.point_counts[i],
+                                      state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
         state.contact_pairs[contact] = static_cast<std::uint32_t>(i);
         state.contact_slots[2 * contact] = state.contact_slots[2 * contact + 1] = physics::NONE;
         if (!state.reordered()) return;

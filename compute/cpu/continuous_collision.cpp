@@ -13,7 +13,7 @@ namespace scree::reference {
 
 namespace {
 
-// Of a body's velocity (State::paces).
+// Of a body's velocity (CpuScratch::paces).
 constexpr std::uint8_t fast = 1, drives = 2;
 
 bool some_fast(const State& state) {
@@ -44,16 +44,16 @@ physics::Way way(const State& state, std::uint32_t row, float until) {
 // Pairs of which a body was fast.
 void list_fast_pairs(State& state, const Threads& threads) {
     const auto is_fast = [&](std::uint32_t row) { return physics::stop_of(state.bounds[state.body_of(row)].sweep) <= 1; };
-    state.fast_pairs.resize(state.counted().pairs);
+    state.scratch.fast_pairs.resize(state.counted().pairs);
     std::atomic<std::size_t> end = 0;
     threads.for_ranges(state.counted().pairs, [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> found;
         for (std::size_t i = first; i < last; ++i)
             if (is_fast(state.pairs[i].a) || is_fast(state.pairs[i].b)) found.push_back(static_cast<std::uint32_t>(i));
         const std::size_t place = end.fetch_add(found.size(), std::memory_order_relaxed);
-        std::copy(found.begin(), found.end(), state.fast_pairs.begin() + static_cast<std::ptrdiff_t>(place));
+        std::copy(found.begin(), found.end(), state.scratch.fast_pairs.begin() + static_cast<std::ptrdiff_t>(place));
     });
-    state.fast_pairs.resize(end);
+    state.scratch.fast_pairs.resize(end);
 }
 
 }  // namespace
@@ -61,21 +61,22 @@ void list_fast_pairs(State& state, const Threads& threads) {
 void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state) || physics::lacks_room(state.counted(), state.fixed())) return;
     const physics::Parameters& p = state.fixed();
-    state.paces.resize(p.first_part);
-    threads.for_each(state.paces.size(), [&](std::size_t i) {
+    state.scratch.paces.resize(p.first_part);
+    threads.for_each(state.scratch.paces.size(), [&](std::size_t i) {
         const physics::BodyProperties& properties = state.properties[i];
-        state.paces[i] = static_cast<std::uint8_t>((physics::will_be_fast(properties, state.velocities[i], p) ? fast : 0) |
-                                                   (physics::drives(properties, state.velocities[i], p) ? drives : 0));
+        state.scratch.paces[i] =
+            static_cast<std::uint8_t>((physics::will_be_fast(properties, state.velocities[i], p) ? fast : 0) |
+                                      (physics::drives(properties, state.velocities[i], p) ? drives : 0));
     });
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         if (state.point_counts[i] == 0) return;
         const auto [a, b, pair_type, previous] = state.pairs[i];
         const std::uint32_t bodies[2] = {state.body_of(a), state.body_of(b)};
-        const std::uint8_t paces[2] = {state.paces[bodies[0]], state.paces[bodies[1]]};
+        const std::uint8_t paces[2] = {state.scratch.paces[bodies[0]], state.scratch.paces[bodies[1]]};
         if ((paces[0] | paces[1]) == 0) return;
         const bool driving[2] = {(paces[0] & drives) != 0, (paces[1] & drives) != 0};
         const bool any_fast = ((paces[0] | paces[1]) & fast) != 0;
-        const physics::Manifold& manifold = state.pair_manifolds[i];
+        const physics::Manifold& manifold = state.scratch.pair_manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
         const bool rebounds =
             state.bounces() && previous != physics::NONE && physics::rebounds_across(state.impacts_before[previous]);
@@ -117,8 +118,8 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
     const std::size_t now = round % 2, next = 1 - now;
     if (round == 0) list_fast_pairs(state, threads);
     const bool listed = !state.has_joints();  // whose stops reach further bodies after a round
-    threads.for_each(listed ? state.fast_pairs.size() : state.counted().pairs, [&](std::size_t k) {
-        const std::size_t i = listed ? state.fast_pairs[k] : k;
+    threads.for_each(listed ? state.scratch.fast_pairs.size() : state.counted().pairs, [&](std::size_t k) {
+        const std::size_t i = listed ? state.scratch.fast_pairs[k] : k;
         const std::uint32_t rows[2] = {state.pairs[i].a, state.pairs[i].b};
         const std::uint32_t bodies[2] = {state.body_of(rows[0]), state.body_of(rows[1])};
         float stops[2];

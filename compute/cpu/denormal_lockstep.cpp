@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compute/cpu/flushed_denormals.h"
+#include "compute/parallel/threads.h"
 #include "compute/statistics.h"
-#include "compute/step/threads.h"
 
 namespace scree {
 

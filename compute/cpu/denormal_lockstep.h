@@ -4,9 +4,9 @@
 
 #include <functional>
 
+#include "compute/plan/lockstep_result.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/lockstep_result.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compute/cpu/simd/simd_blocks.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree::reference {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "compute/step/joint_blocks.h"
+#include "compute/compile/joint_blocks.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree::reference {

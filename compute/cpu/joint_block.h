@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compute/cpu/simd/simd_joints.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/joint_block.h"
 

@@ -17,14 +17,14 @@ constexpr std::uint8_t still_kind = 0x80;
 
 // What matching asks of each row, and of each contact of the last step: the id of its owner's partner.
 void list_rows(State& state, const Threads& threads) {
-    state.partners_before.resize(state.contacts_before.size());
-    state.row_kinds.resize(state.fixed().bodies);
+    state.scratch.partners_before.resize(state.contacts_before.size());
+    state.scratch.row_kinds.resize(state.fixed().bodies);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const bool is_still = (state.bounds[i].level & physics::INACTIVE) != 0;
-        state.row_kinds[i] = static_cast<std::uint8_t>(state.properties[i].shape | (is_still ? still_kind : 0u));
+        state.scratch.row_kinds[i] = static_cast<std::uint8_t>(state.properties[i].shape | (is_still ? still_kind : 0u));
         for (std::uint32_t k = state.first_contacts[i]; k < state.first_contacts[i + 1]; ++k) {
             const physics::Contact& before = state.contacts_before[k];
-            state.partners_before[k] = state.id_of(before.a == i ? before.b : before.a);
+            state.scratch.partners_before[k] = state.id_of(before.a == i ? before.b : before.a);
         }
     });
 }
@@ -33,8 +33,8 @@ void list_rows(State& state, const Threads& threads) {
 // that id: each body's contacts are in the order of their partners' ids.
 std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t id, std::uint32_t& from) {
     const std::uint32_t last = state.first_contacts[owner + 1];
-    while (from < last && state.partners_before[from] < id) ++from;
-    return from < last && state.partners_before[from] == id ? from : physics::NONE;
+    while (from < last && state.scratch.partners_before[from] < id) ++from;
+    return from < last && state.scratch.partners_before[from] == id ? from : physics::NONE;
 }
 
 // In the order of the partners' ids. Most bodies have few candidates, which are in this order already.
@@ -53,7 +53,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate, s
         std::uint32_t first = state.first_contacts[candidate.other];
         if (pair.previous == physics::NONE) pair.previous = contact_before(state, candidate.other, id, first);
     }
-    const std::uint8_t kind_a = state.row_kinds[pair.a], kind_b = state.row_kinds[pair.b];
+    const std::uint8_t kind_a = state.scratch.row_kinds[pair.a], kind_b = state.scratch.row_kinds[pair.b];
     const bool inactive = (kind_a & kind_b & still_kind) != 0;
     pair.pair_type = inactive ? physics::PAIR_INACTIVE : physics::pair_type_of(kind_a & ~still_kind, kind_b & ~still_kind);
     return pair;
@@ -62,8 +62,8 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate, s
 // Whether the pair's contact of the last step may persist (persistence.h).
 bool may_persist(const State& state, const physics::Pair& pair) {
     return pair.pair_type != physics::PAIR_INACTIVE && pair.previous != physics::NONE &&
-           physics::may_persist(state.impulse_before(pair.previous), state.row_kinds[pair.a] & ~still_kind,
-                                state.row_kinds[pair.b] & ~still_kind) &&
+           physics::may_persist(state.impulse_before(pair.previous), state.scratch.row_kinds[pair.a] & ~still_kind,
+                                state.scratch.row_kinds[pair.b] & ~still_kind) &&
            physics::has_weight(felt_by(state, state.body_of(pair.a)));
 }
 bool persists(const State& state, const physics::Pair& pair) {
@@ -77,7 +77,8 @@ bool persists(const State& state, const physics::Pair& pair) {
 void match_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const WideStages* wide = wide_stages(threads.lanes());
-    if (state.pair_manifolds.size() < state.counted().pairs) state.pair_manifolds.resize(state.fixed().pair_capacity);
+    if (state.scratch.pair_manifolds.size() < state.counted().pairs)
+        state.scratch.pair_manifolds.resize(state.fixed().pair_capacity);
     list_rows(state, threads);
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> asked;  // pairs that may persist

@@ -47,8 +47,9 @@ physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyPro
 void relate_to_body(State& state, std::size_t index) {
     const std::size_t a = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
     if (a == body) return;
-    const physics::ManifoldBuffer touch{state.pair_manifolds[index], state.point_counts[index]};
-    state.pair_manifolds[index] = physics::from_body(touch, state.poses[a].position - state.poses[body].position).manifold;
+    const physics::ManifoldBuffer touch{state.scratch.pair_manifolds[index], state.point_counts[index]};
+    state.scratch.pair_manifolds[index] =
+        physics::from_body(touch, state.poses[a].position - state.poses[body].position).manifold;
 }
 
 void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
@@ -73,7 +74,7 @@ void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
                             : touch_of(pair_type, ta, pa, tb, pb, most, state);
     if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
     touch = physics::within_margin(touch, margin);
-    state.pair_manifolds[index] = touch.manifold;
+    state.scratch.pair_manifolds[index] = touch.manifold;
     state.point_counts[index] = touch.count;
 }
 
@@ -182,7 +183,7 @@ void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
         const std::size_t index = state.pairs_by_type[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
-        state.pair_manifolds[index] =
+        state.scratch.pair_manifolds[index] =
             physics::persistent_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
         state.point_counts[index] = contact.count;
     });
@@ -195,7 +196,8 @@ void collide_inactive(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(last - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const std::size_t previous = state.pairs[index].previous;
-        state.pair_manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulse_before(previous));
+        state.scratch.pair_manifolds[index] =
+            physics::resting_manifold(state.contacts_before[previous], state.impulse_before(previous));
         state.point_counts[index] = state.contacts_before[previous].count;
     });
 }

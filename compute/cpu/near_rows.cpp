@@ -31,7 +31,7 @@ bool is_within(const physics::Bounds& bounds, const NearRows::Box& box) {
 }
 
 void draw_boxes(State& state, const Threads& threads) {
-    NearRows& near = state.near_rows;
+    NearRows& near = state.scratch.near_rows;
     near.is_listed = false;
     near.boxes.resize(state.fixed().bodies);
     const physics::vec3 far(farthest * state.fixed().cell);
@@ -47,7 +47,7 @@ void draw_boxes(State& state, const Threads& threads) {
 
 // The rows whose boxes overlap that of row i: on its own level those behind it, on coarser ones all. Boxes of this step.
 void list_row(const State& state, std::uint32_t i, std::vector<std::uint32_t>& found) {
-    const NearRows& near = state.near_rows;
+    const NearRows& near = state.scratch.near_rows;
     const NearRows::Box& box = near.boxes[i];
     const std::uint32_t own = level_of(state, i);
     for (std::uint32_t levels = state.counted().levels & ~((1u << own) - 1u); levels != 0; levels &= levels - 1) {
@@ -61,7 +61,7 @@ void list_row(const State& state, std::uint32_t i, std::vector<std::uint32_t>& f
 }
 
 void list_near_rows(State& state, const Threads& threads) {
-    NearRows& near = state.near_rows;
+    NearRows& near = state.scratch.near_rows;
     const std::size_t bodies = state.fixed().bodies;
     near.firsts.resize(bodies);
     near.ends.resize(bodies);
@@ -93,7 +93,7 @@ struct Outside {
     bool reaches_far = false;  // one is on a level much coarser than the finest
 };
 Outside place_rows(State& state, const Threads& threads) {
-    NearRows& near = state.near_rows;
+    NearRows& near = state.scratch.near_rows;
     const auto finest = static_cast<std::uint32_t>(std::countr_zero(state.counted().levels));
     std::atomic<std::size_t> outside = 0;
     std::atomic<bool> reaches_far = false;
@@ -118,7 +118,7 @@ Outside place_rows(State& state, const Threads& threads) {
 }  // namespace
 
 bool find_near_rows(State& state, const Threads& threads) {
-    NearRows& near = state.near_rows;
+    NearRows& near = state.scratch.near_rows;
     if (state.has_copies() || !state.presence.empty()) return false;
     const std::size_t bodies = state.fixed().bodies;
     if (near.boxes.size() != bodies) {

@@ -10,7 +10,7 @@
 #include <array>
 
 #include "compute/cpu/cells.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
 
 namespace scree::reference {
 
@@ -21,7 +21,7 @@ bool find_near_rows(State& state, const Threads& threads);
 template <typename Found>
 void for_each_near(const State& state, std::uint32_t body, const Found& found) {
     using Place = NearRows::Place;
-    const NearRows& near = state.near_rows;
+    const NearRows& near = state.scratch.near_rows;
     const physics::Bounds& around = state.bounds[body];
     if (near.places[body] == Place::in_box) {
         // Without branches: half of those near each other overlap, which no branch predictor foresees.

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_slices.h"
 
 namespace scree {
 

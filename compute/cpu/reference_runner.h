@@ -3,9 +3,9 @@
 
 #include <functional>
 
+#include "compute/plan/plan.h"
+#include "compute/plan/stage_clock.h"
 #include "compute/runner.h"
-#include "compute/step/plan.h"
-#include "compute/step/stage_clock.h"
 
 namespace scree {
 

@@ -1,7 +1,7 @@
 // What contacts and joints change of a body: sums over its slots.
 #pragma once
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree::reference {
 

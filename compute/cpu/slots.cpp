@@ -12,9 +12,10 @@ namespace scree::reference {
 namespace {
 
 void list_movable(State& state, const Threads& threads) {
-    state.movable.resize(state.fixed().first_part);
-    threads.for_each(state.movable.size(), [&](std::size_t i) {
-        state.movable[i] = physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps);
+    state.scratch.movable.resize(state.fixed().first_part);
+    threads.for_each(state.scratch.movable.size(), [&](std::size_t i) {
+        state.scratch.movable[i] =
+            physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps);
     });
 }
 
@@ -32,7 +33,7 @@ void count_slots(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const auto [a, b] = bodies_of(state, i);
         for (const std::uint32_t body : {a, b})
-            if (state.movable[body]) taken(threads, state.slot_counts()[body]);
+            if (state.scratch.movable[body]) taken(threads, state.slot_counts()[body]);
     });
 }
 
@@ -44,7 +45,7 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         solved.reserve(last - first);
         for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
             const auto [a, b] = bodies_of(state, contact);
-            const bool moves_a = state.movable[a], moves_b = state.movable[b];
+            const bool moves_a = state.scratch.movable[a], moves_b = state.scratch.movable[b];
             if (moves_a) state.slot_sides[taken(threads, state.slot_starts()[a])] = 2 * contact;
             if (moves_b) state.slot_sides[taken(threads, state.slot_starts()[b])] = 2 * contact + 1;
             if (moves_a || moves_b) solved.push_back(contact);

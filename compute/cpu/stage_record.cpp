@@ -9,7 +9,7 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/statistics.h"
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 #include "compute/world/byte_stream.h"
 #include "compute/world/state_bytes.h"
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "compute/plan/lockstep_result.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/lockstep_result.h"
 
 namespace scree {
 

@@ -78,7 +78,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
     const WideStages* wide = wide_stages(threads.lanes());
-    const std::vector<std::uint32_t>& bodies = state.movable_bodies;
+    const std::vector<std::uint32_t>& bodies = state.scratch.movable_bodies;
     const WideTables all_tables = wide_tables(state, bodies);
     threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) {
         std::array<std::uint8_t, 128> marks;

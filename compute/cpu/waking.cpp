@@ -53,7 +53,7 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
         if (!stirred(state, pair.a) && !stirred(state, pair.b)) return;
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const float approach = physics::approach_of(
-            state.pair_manifolds[index], state.point_counts[index], state.poses[b].position - state.poses[a].position,
+            state.scratch.pair_manifolds[index], state.point_counts[index], state.poses[b].position - state.poses[a].position,
             state.velocities[a], state.velocities[b],
             physics::speculative_of(state.properties[pair.a], state.properties[pair.b], state.fixed()), state.fixed());
         if (slept(state, a) && !slept(state, b) && wakes(state, pair, a, b, approach)) raise(state, a, physics::WOKEN);

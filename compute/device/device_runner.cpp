@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "compute/distributed/distributed_runner.h"
-#include "compute/step/stage_fusion.h"
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_fusion.h"
+#include "compute/plan/stage_slices.h"
 #include "shaders/embedded.h"
 #include "shaders/physics/base/work_counts.h"
 

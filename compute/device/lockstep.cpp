@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "compute/compile/scene_compiler.h"
 #include "compute/cpu/reference_runner.h"
 #include "compute/device/device_runner.h"
 #include "compute/scene/copies.h"
 #include "compute/statistics.h"
-#include "compute/step/scene_compiler.h"
 #include "compute/world/state_bytes.h"
 
 namespace scree {

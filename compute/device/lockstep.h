@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 
+#include "compute/compile/state_editor.h"
+#include "compute/plan/lockstep_result.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/lockstep_result.h"
-#include "compute/step/state_editor.h"
 
 namespace scree {
 

@@ -43,9 +43,7 @@ RowMover::Tables DeviceRunner::tables_to_move() const {
         const std::size_t count = state_->live(table_infos()[static_cast<std::size_t>(now)].length);
         if (count > 0) tables.of_contacts.emplace_back(records_of(now, count), &buffer(before));
     };
-    take_along(Table::contacts, Table::contacts_before);
-    take_along(Table::impulses, Table::impulses_before);
-    take_along(Table::impacts, Table::impacts_before);
+    for (const Table table : contact_tables) take_along(table, other_parity(table));
     return tables;
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/step/ray_task.h"
+#include "compute/scene/ray_task.h"
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/command_buffer.h"
 #include "host/vulkan/pipeline.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -20,6 +20,15 @@ void append_rows(TableRanges& ranges, Table table, const std::vector<std::uint32
         else
             ranges.push_back({table, rows[k], 1});
     }
+}
+
+// Of rows, what only their owners tell: ghosts are sent the rest, at the start of each step.
+std::vector<Table> tables_without_ghosts() {
+    std::vector<Table> found;
+    for (const Table table : row_tables)
+        if (std::find(tables_of_ghosts().begin(), tables_of_ghosts().end(), table) == tables_of_ghosts().end())
+            found.push_back(table);
+    return found;
 }
 
 TableRange whole(const State& state, Table table) {
@@ -62,7 +71,7 @@ void DeviceSide::take_rows(const Halo& halo) {
     ghosts_ = halo.ghost_rows();
 }
 
-TableRanges DeviceSide::ranges(std::initializer_list<Table> tables, Rows rows) const {
+TableRanges DeviceSide::ranges(const Tables& tables, Rows rows) const {
     TableRanges wanted;
     for (const Table table : tables) {
         if (rows == Rows::all)
@@ -73,11 +82,11 @@ TableRanges DeviceSide::ranges(std::initializer_list<Table> tables, Rows rows) c
     return wanted;
 }
 
-void DeviceSide::fetch(std::initializer_list<Table> tables, Rows rows) {
+void DeviceSide::fetch(const Tables& tables, Rows rows) {
     if (device_) fetch(ranges(tables, rows));
 }
 
-void DeviceSide::store(std::initializer_list<Table> tables, Rows rows) {
+void DeviceSide::store(const Tables& tables, Rows rows) {
     if (device_) store(ranges(tables, rows));
 }
 
@@ -106,12 +115,17 @@ void DeviceSide::store(const TableRanges& ranges) {
 }
 
 TableRanges DeviceSide::contacts_of(std::size_t count) const {
-    return {{Table::contacts, 0, count}, {Table::impulses, 0, count}, {Table::impacts, 0, state_->bounces() ? count : 0}};
+    TableRanges ranges;
+    for (const Table table : contact_tables) {
+        const bool is_here = state_->allocated(table_infos()[static_cast<std::size_t>(table)].length) > 0;
+        ranges.push_back({table, 0, is_here ? count : 0});
+    }
+    return ranges;
 }
 TableRanges DeviceSide::contacts_before_of(std::size_t count) const {
-    return {{Table::contacts_before, 0, count},
-            {Table::impulses_before, 0, count},
-            {Table::impacts_before, 0, state_->bounces() ? count : 0}};
+    TableRanges ranges = contacts_of(count);
+    for (TableRange& range : ranges) range.table = other_parity(range.table);
+    return ranges;
 }
 
 void DeviceSide::fetch_contacts() {
@@ -147,7 +161,8 @@ void DeviceSide::fetch_contacts_of_sleepers() {
 
 void DeviceSide::fetch_for_new_rows() {
     if (!device_) return;
-    fetch({Table::properties, Table::strains, Table::slot_ends, Table::first_contacts});
+    fetch(tables_without_ghosts());
+    fetch({Table::slot_ends, Table::first_contacts});
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
     fetch(contacts_before_of(count));
 }
@@ -159,14 +174,15 @@ void DeviceSide::store_new_rows(const Share::Changes& changes) {
         std::sort(rows.begin(), rows.end());
         rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         TableRanges records;
-        for (const Table table : {Table::properties, Table::ids, Table::strains}) append_rows(records, table, rows);
+        append_rows(records, Table::ids, rows);
+        for (const Table table : tables_without_ghosts()) append_rows(records, table, rows);
         return store(records);
     }
     marks_.clear();
     adapt();
     const std::size_t count = state_->first_contacts[state_->fixed().bodies];
-    store({Table::properties, Table::ids, Table::poses, Table::velocities, Table::forces, Table::sleep_states, Table::masses,
-           Table::strains, Table::slot_ends, Table::first_contacts});
+    store(Tables(row_tables.begin(), row_tables.end()));
+    store({Table::ids, Table::forces, Table::slot_ends, Table::first_contacts});
     store(contacts_before_of(count));
     device_->resume_step();
 }

@@ -10,8 +10,8 @@
 
 #include "compute/distributed/halo.h"
 #include "compute/staged_runner.h"
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 
 namespace scree {
 
@@ -35,8 +35,9 @@ public:
     };
     void take_rows(const Halo& halo);  // of this step
     // From the device into the host's tables, and back.
-    void fetch(std::initializer_list<Table> tables, Rows rows = Rows::all);
-    void store(std::initializer_list<Table> tables, Rows rows = Rows::all);
+    using Tables = std::vector<Table>;
+    void fetch(const Tables& tables, Rows rows = Rows::all);
+    void store(const Tables& tables, Rows rows = Rows::all);
     void fetch(const TableRanges& ranges);
     void store(const TableRanges& ranges);
     void fetch_counts() { fetch({{Table::counts, 0, 1}}); }
@@ -56,7 +57,7 @@ public:
     void mark_presence();
 
 private:
-    TableRanges ranges(std::initializer_list<Table> tables, Rows rows) const;
+    TableRanges ranges(const Tables& tables, Rows rows) const;
     // The contacts of this step, and of the last one, with their impulses.
     TableRanges contacts_of(std::size_t count) const;
     TableRanges contacts_before_of(std::size_t count) const;

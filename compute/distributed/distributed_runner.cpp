@@ -8,7 +8,7 @@
 
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/gathering.h"
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_slices.h"
 
 namespace scree {
 
@@ -22,12 +22,6 @@ constexpr std::uint32_t least_together = 1024, most_parts = 8;
 
 bool starts_with(const std::string& text, const char* begin) {
     return text.rfind(begin, 0) == 0;
-}
-
-// Tables that are gathered together, for their numbers differ by rank.
-bool is_of_contacts(Table table) {
-    using enum Table;
-    return table == contacts || table == impulses || table == impacts || table == first_contacts || table == carried;
 }
 
 TableRanges without_contacts(TableRanges ranges) {
@@ -133,8 +127,8 @@ void DistributedRunner::share_out() {
 
 void DistributedRunner::download_share() {
     if (!device_ || std::exchange(has_share_on_host_, true)) return;
-    using enum Table;
-    device_.fetch({properties, poses, velocities, sleep_states, strains, masses, slot_ends});
+    device_.fetch(DeviceSide::Tables(row_tables.begin(), row_tables.end()));
+    device_.fetch({Table::slot_ends});
     device_.fetch_contacts();
 }
 
@@ -216,12 +210,11 @@ void DistributedRunner::move_bodies_between_ranks() {
 }
 
 void DistributedRunner::place_bodies() {
-    using enum Table;
     const bool any_stopped = device_ && ownership_.any_stopped(*state_);
-    if (any_stopped) device_.fetch({poses, velocities, sleep_states, masses, strains});
+    if (any_stopped) device_.fetch(tables_of_owners());
     ownership_.place(*state_, *exchange_);
     placed_bodies_ = state_->fixed().first_part;
-    if (any_stopped) device_.store({poses, velocities, sleep_states, masses, strains});
+    if (any_stopped) device_.store(tables_of_owners());
 }
 
 std::size_t DistributedRunner::run_on_device(std::size_t first) {

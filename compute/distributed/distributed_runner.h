@@ -15,9 +15,9 @@
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
 #include "compute/distributed/share.h"
+#include "compute/plan/plan.h"
+#include "compute/plan/stage_clock.h"
 #include "compute/runner.h"
-#include "compute/step/plan.h"
-#include "compute/step/stage_clock.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 
 #include "compute/distributed/ownership.h"
 #include "compute/distributed/packing.h"
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 
 namespace scree {
 
@@ -42,14 +42,14 @@ void gather_contacts(State& state, Exchange& exchange) {
     for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
             if (state.tells_of(state.contacts[k]))
-                put(said, TracedContact{{row, state.contacts[k], state.impulse(k)},
-                                        k < state.carried.size() ? state.carried[k] : 0.0f});
+                put(said, TracedContact{{row, ContactRecords::of(state, k)}, k < state.carried.size() ? state.carried[k] : 0.0f});
     std::vector<TracedContact> all;
     for (const Bytes& told : exchange.gather(said))
         for (Unpacker from(told); from.has_more();) all.push_back(from.take<TracedContact>());
     const auto key = [&](const TracedContact& one) {
         const OwnedContact& c = one.contact;
-        return std::pair(c.owner, state.id_of(c.contact.a == c.owner ? c.contact.b : c.contact.a));
+        const physics::Contact& contact = c.records.contacts;
+        return std::pair(c.owner, state.id_of(contact.a == c.owner ? contact.b : contact.a));
     };
     std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
     std::vector<OwnedContact> contacts;
@@ -94,33 +94,14 @@ void gather_vehicles(State& state, Exchange& exchange) {
 
 void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges) {
     if (exchange.ranks() == 1 || state.presence.empty()) return;
-    using enum Table;
     bool any_contacts = false, any_joints = false, any_vehicles = false;
     for (const TableRange& range : ranges) {
-        switch (range.table) {
-            case poses:
-            case velocities:
-            case masses:
-            case sleep_states:
-            case strains:
-                gather_rows(state, exchange, range);
-                break;
-            case contacts:
-            case impulses:
-            case impacts:
-            case first_contacts:
-            case carried:
-                any_contacts = true;
-                break;
-            case joints:
-                any_joints = true;
-                break;
-            case vehicles:
-                any_vehicles = true;
-                break;
-            default:  // the same on all ranks, or of no use between steps
-                break;
-        }
+        // Others are the same on all ranks, or of no use between steps.
+        const std::vector<Table>& of_owners = tables_of_owners();
+        if (std::find(of_owners.begin(), of_owners.end(), range.table) != of_owners.end()) gather_rows(state, exchange, range);
+        any_contacts |= is_of_contacts(range.table);
+        any_joints |= range.table == Table::joints;
+        any_vehicles |= range.table == Table::vehicles;
     }
     if (any_contacts) gather_contacts(state, exchange);
     if (any_joints) gather_joints(state, exchange);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compute/distributed/exchange.h"
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 
 namespace scree {
 

@@ -6,6 +6,7 @@
 
 #include "compute/distributed/cell_set.h"
 #include "compute/distributed/packing.h"
+#include "compute/tables/lasting.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/motion.h"
@@ -18,11 +19,9 @@ namespace {
 constexpr float coarse = 1.0f / 8;
 
 struct GhostAtStart {
-    std::uint32_t id = 0, rest = 0;
-    physics::Pose pose;
-    physics::Velocity velocity;
+    std::uint32_t id = 0;
     physics::BodyForces forces;
-    float shares = 0;
+    GhostRecords records;
 };
 struct FreshGhost {
     std::uint32_t id = 0;
@@ -184,8 +183,7 @@ Bytes Halo::start_of(const State& state, const std::vector<std::uint32_t>& rows,
     std::vector<std::uint32_t> ids;
     for (const std::uint32_t row : rows) {
         const std::uint32_t id = state.id_of(row);
-        put(ghosts, GhostAtStart{id, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
-                                 state.masses[row].shares});
+        put(ghosts, GhostAtStart{id, state.forces[row], GhostRecords::of(state, row)});
         if (!state.is_share()) continue;
         ids.push_back(id);
         if (!std::binary_search(known.begin(), known.end(), id)) put(fresh, FreshGhost{id, state.properties[row]});
@@ -224,11 +222,8 @@ void Halo::take_ghosts(State& state, Share& share, const std::vector<Bytes>& sen
         for (const GhostAtStart& ghost : ghosts[r]) {
             const std::uint32_t row = state.row_of(ghost.id);
             from_[r].push_back(row);
-            state.sleep_states[row] = ghost.rest;
-            state.poses[row] = ghost.pose;
-            state.velocities[row] = ghost.velocity;
             state.forces[row] = ghost.forces;
-            state.masses[row].shares = ghost.shares;
+            ghost.records.put(state, row);
         }
 }
 

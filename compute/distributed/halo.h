@@ -7,7 +7,7 @@
 
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/ownership.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "compute/distributed/packing.h"
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 
 namespace scree {
 
@@ -22,26 +22,20 @@ struct Sample {
     double cost = 0;
 };
 
+// All that lasts of a body.
 struct MovedBody {
-    std::uint32_t id = 0, rest = 0;
-    physics::BodyProperties properties;
-    physics::Pose pose;
-    physics::Velocity velocity;
-    float shares = 0, strain = 0;
+    std::uint32_t id = 0;
+    RowRecords records;
 };
 
 MovedBody moved_body(const State& state, std::uint32_t row) {
-    return {state.id_of(row),      state.sleep_states[row],  state.properties[row], state.poses[row],
-            state.velocities[row], state.masses[row].shares, state.strains[row]};
+    return {state.id_of(row), RowRecords::of(state, row)};
 }
-void take_body(State& state, const MovedBody& body) {
+void take_body(State& state, MovedBody body) {
     const std::uint32_t row = state.row_of(body.id);
-    if (state.is_share()) state.properties[row] = owned_by(row, body.properties);
-    state.sleep_states[row] = body.rest;
-    state.poses[row] = body.pose;
-    state.velocities[row] = body.velocity;
-    state.masses[row].shares = body.shares;
-    state.strains[row] = body.strain;
+    // Properties are told to shares alone: others have them.
+    body.records.properties = state.is_share() ? owned_by(row, body.records.properties) : state.properties[row];
+    body.records.put(state, row);
 }
 
 template <class Records>
@@ -152,7 +146,7 @@ void Ownership::give_contacts(State& state, Exchange& exchange) {
             for (const std::uint32_t end : {state.body_of(contact.a), state.body_of(contact.b)})
                 if (has_started(state, end) && owner_of(state, end) != exchange.rank())
                     contacts[static_cast<std::size_t>(owner_of(state, end))].push_back(
-                        by_ids(state, {row, contact, state.impulse_before(k)}));
+                        by_ids(state, {row, ContactRecords::of_last_step(state, k)}));
         }
     std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) put_list(to[r], contacts[r]);
@@ -301,7 +295,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             const int to_a = leaves_for(contact.a), to_b = leaves_for(contact.b);
-            const OwnedContact told_contact = by_ids(state, {row, contact, state.impulse_before(k)});
+            const OwnedContact told_contact = by_ids(state, {row, ContactRecords::of_last_step(state, k)});
             if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back(told_contact);
             if (to_b >= 0 && to_b != to_a) contacts[static_cast<std::size_t>(to_b)].push_back(told_contact);
         }
@@ -360,7 +354,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
     }
     std::vector<std::uint32_t> needed;  // and who touches them: ghosts of this step
     for (const MovedBody& body : come) needed.push_back(body.id);
-    for (const OwnedContact& one : more) needed.insert(needed.end(), {one.contact.a, one.contact.b});
+    for (const OwnedContact& one : more) needed.insert(needed.end(), {one.records.contacts.a, one.records.contacts.b});
     share.take_in(state, needed);
     for (const MovedBody& body : come) take_body(state, body);
     for (OwnedContact& one : more) one = by_rows(state, one);
@@ -381,11 +375,13 @@ void Ownership::inherit(const State& state, std::uint32_t row) {
 }
 
 OwnedContact by_ids(const State& state, OwnedContact contact) {
-    for (std::uint32_t* row : {&contact.owner, &contact.contact.a, &contact.contact.b}) *row = state.id_of(*row);
+    for (std::uint32_t* row : {&contact.owner, &contact.records.contacts.a, &contact.records.contacts.b})
+        *row = state.id_of(*row);
     return contact;
 }
 OwnedContact by_rows(const State& state, OwnedContact contact) {
-    for (std::uint32_t* id : {&contact.owner, &contact.contact.a, &contact.contact.b}) *id = state.row_with(*id);
+    for (std::uint32_t* id : {&contact.owner, &contact.records.contacts.a, &contact.records.contacts.b})
+        *id = state.row_with(*id);
     return contact;
 }
 
@@ -404,7 +400,7 @@ void merge_contacts(State& state, const std::vector<OwnedContact>& more,
     for (std::uint32_t row = 0; row < rows; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
             if (keeps(state.contacts[k])) all.push_back(place_of(row, state.contacts[k], k));
-    for (std::uint32_t k = 0; k < more.size(); ++k) all.push_back(place_of(more[k].owner, more[k].contact, before + k));
+    for (std::uint32_t k = 0; k < more.size(); ++k) all.push_back(place_of(more[k].owner, more[k].records.contacts, before + k));
     std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() < b.key(); });
     all.erase(std::unique(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() == b.key(); }), all.end());
     if (all.size() > state.fixed().contact_capacity) {
@@ -415,8 +411,7 @@ void merge_contacts(State& state, const std::vector<OwnedContact>& more,
     for (std::size_t k = 0; k < all.size(); ++k) {
         const std::uint32_t from = all[k].from;
         ++state.first_contacts[all[k].owner + 1];
-        state.contacts_before[k] = from < before ? state.contacts[from] : more[from - before].contact;
-        state.keep_impulse_before(k, from < before ? state.impulse(from) : more[from - before].impulse);
+        (from < before ? ContactRecords::of(state, from) : more[from - before].records).put_before(state, k);
     }
     state.turn_over();
     std::partial_sum(state.first_contacts.begin(), state.first_contacts.end(), state.first_contacts.begin());

@@ -8,7 +8,8 @@
 
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/share.h"
-#include "compute/step/state.h"
+#include "compute/tables/lasting.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 
@@ -62,8 +63,7 @@ private:
 // A contact of the last step, with the row that owned its pair; in messages with ids in place of rows.
 struct OwnedContact {
     std::uint32_t owner = 0;
-    physics::Contact contact;
-    physics::Impulse impulse;
+    ContactRecords records;
 };
 OwnedContact by_ids(const State& state, OwnedContact contact);
 OwnedContact by_rows(const State& state, OwnedContact contact);

@@ -6,21 +6,13 @@
 #include <utility>
 
 #include "compute/distributed/packing.h"
+#include "compute/tables/lasting.h"
 
 namespace scree {
 
 namespace {
 
 constexpr std::uint32_t least_room = 64;
-
-// What the owner of a body tells, of all that lasts.
-struct OwnedBody {
-    std::uint32_t id = 0, rest = 0;
-    physics::BodyProperties properties;
-    physics::Pose pose;
-    physics::Velocity velocity;
-    float shares = 0, strain = 0;
-};
 
 std::uint32_t with_room(std::size_t rows) {
     return static_cast<std::uint32_t>(rows + rows / 8 + least_room);
@@ -109,10 +101,9 @@ private:
             if (starts[row] == starts[row + 1]) continue;
             std::uint32_t old = state_.first_contacts[from_[row]];
             for (std::uint32_t k = starts[row]; k < starts[row + 1]; ++k, ++old) {
-                state_.contacts_before[k] = state_.contacts[old];
+                ContactRecords::of(state_, old).put_before(state_, k);
                 follow(state_.contacts_before[k].a);
                 follow(state_.contacts_before[k].b);
-                state_.keep_impulse_before(k, state_.impulse(old));
             }
         }
         state_.turn_over();
@@ -126,14 +117,14 @@ private:
 };
 
 void drop_caches(State& state) {
-    release(state.partners);
-    release(state.partners_before);
-    release(state.row_kinds);
-    state.near_rows = {};
-    release(state.movable_bodies);
-    release(state.driven_bodies);
-    release(state.paces);
-    release(state.lane_bodies);
+    release(state.scratch.partners);
+    release(state.scratch.partners_before);
+    release(state.scratch.row_kinds);
+    state.scratch.near_rows = {};
+    release(state.scratch.movable_bodies);
+    release(state.scratch.driven_bodies);
+    release(state.scratch.paces);
+    release(state.scratch.lane_bodies);
 }
 
 // The rows of parts follow those of bodies.
@@ -179,9 +170,10 @@ void Share::begin(State& state, std::span<const std::uint32_t> ids) {
 void Share::end(State& state, Exchange& exchange) {
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
-        if (state.is_owned(row))
-            put(said, OwnedBody{state.id_of(row), state.sleep_states[row], state.properties[row], state.poses[row],
-                                state.velocities[row], state.masses[row].shares, state.strains[row]});
+        if (state.is_owned(row)) {
+            put(said, state.id_of(row));
+            put(said, RowRecords::of(state, row));
+        }
     const std::uint32_t first_part = *state.first_part_id;
     std::vector<std::uint32_t> from(first_part, physics::NONE);
     for (std::uint32_t id = 0; id < state.body_count; ++id) from[id] = state.row_of(id);
@@ -195,14 +187,9 @@ void Share::end(State& state, Exchange& exchange) {
     for (std::size_t r = 0; r < told.size(); ++r) {
         if (r == static_cast<std::size_t>(exchange.rank())) continue;
         for (Unpacker bodies(told[r]); bodies.has_more();) {
-            const auto body = bodies.take<OwnedBody>();
-            state.properties[body.id] = body.properties;
-            state.properties[body.id].owner = body.id;
-            state.sleep_states[body.id] = body.rest;
-            state.poses[body.id] = body.pose;
-            state.velocities[body.id] = body.velocity;
-            state.masses[body.id].shares = body.shares;
-            state.strains[body.id] = body.strain;
+            const auto id = bodies.take<std::uint32_t>();
+            bodies.take<RowRecords>().put(state, id);
+            state.properties[id].owner = id;
         }
     }
     state.take_rows({}, state.rows_bounce());

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compute/distributed/exchange.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -4,7 +4,7 @@
 
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/packing.h"
-#include "compute/step/stage_slices.h"
+#include "compute/plan/stage_slices.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
@@ -18,6 +18,16 @@ struct BrokenBody {
     physics::Pose pose;
     physics::Velocity velocity;
 };
+
+// At the start of a step.
+const std::vector<Table>& told_of_ghosts() {
+    static const std::vector<Table> all = [] {
+        std::vector<Table> tables = tables_of_ghosts();
+        tables.push_back(Table::forces);
+        return tables;
+    }();
+    return all;
+}
 
 }  // namespace
 
@@ -40,7 +50,7 @@ bool DistributedRunner::talk(Talk what) {
         case Talk::none:
             break;
         case Talk::ghosts:
-            device_.fetch({poses, velocities, forces, sleep_states, masses});
+            device_.fetch(told_of_ghosts());
             device_.fetch_contacts_of_sleepers();
             if (device_) share_.before_change = [&] { device_.fetch_for_new_rows(); };
             halo_.find(*state_, ownership_, *exchange_, share_);
@@ -48,7 +58,7 @@ bool DistributedRunner::talk(Talk what) {
             if (const Share::Changes changes = share_.changes(); changes.any()) device_.store_new_rows(changes);
             device_.take_rows(halo_);
             device_.mark_presence();
-            device_.store({poses, velocities, forces, sleep_states, masses}, Rows::ghosts);
+            device_.store(told_of_ghosts(), Rows::ghosts);
             break;
         case Talk::flags:
             device_.fetch_counts();

@@ -8,7 +8,7 @@
 #include "compute/fields/check.h"
 #include "compute/fields/vehicle.h"
 #include "compute/scene/validator.h"
-#include "compute/step/vehicle_records.h"
+#include "compute/scene/vehicle_records.h"
 
 namespace scree {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/scene_compiler.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/fracture.h"
-#include "compute/step/scene_compiler.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
 
@@ -109,7 +109,7 @@ void World::Impl::keep_original(std::size_t body) {
 
 void World::Impl::send(const TableRanges& changed, const TableLengths& before) {
     if (TableLengths::of(state) != before) runner->adapt();
-    runner->upload(changed);
+    runner->upload(united(changed));
     begin_impacts(before.features);
 }
 
@@ -144,7 +144,7 @@ std::vector<std::vector<Body>> World::Impl::checked_families(std::span<const Bod
 }
 
 std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_one_copy("add_bodies");
     std::vector<std::vector<Body>> families = in.checked_families(bodies);
     if (families.empty()) return {};
@@ -291,24 +291,24 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
 }
 
 void World::remove_bodies(std::span<const BodyHandle> bodies) {
-    interior_->require_one_copy("remove_bodies");
+    whole().require_one_copy("remove_bodies");
     std::vector<std::size_t> indices;
     for (const BodyHandle& body : bodies) indices.push_back(index_of(body));
-    interior_->remove(std::move(indices));
+    whole().remove(std::move(indices));
 }
 
 void World::remove_body(std::size_t body) {
-    interior_->require_one_copy("remove_body");
-    interior_->remove({body});
+    whole().require_one_copy("remove_body");
+    whole().remove({body});
 }
 
 BodyHandle World::handle_of(std::size_t body) const {
-    interior_->require_body(body);
-    return {static_cast<std::uint32_t>(body), body < interior_->generations.size() ? interior_->generations[body] : 0};
+    whole().require_body(body);
+    return {static_cast<std::uint32_t>(body), body < whole().generations.size() ? whole().generations[body] : 0};
 }
 
 bool World::is_valid(BodyHandle body) const {
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     const std::uint32_t now = body.index < in.generations.size() ? in.generations[body.index] : 0;
     return body.index < in.scene.bodies.size() && !in.is_gone(body.index) && body.generation == now;
 }
@@ -316,19 +316,19 @@ bool World::is_valid(BodyHandle body) const {
 std::size_t World::index_of(BodyHandle body) const {
     if (is_valid(body)) return body.index;
     throw std::out_of_range("body " + std::to_string(body.index) + " of generation " + std::to_string(body.generation) +
-                            (body.index < interior_->scene.bodies.size() ? " has been removed" : " has never been"));
+                            (body.index < whole().scene.bodies.size() ? " has been removed" : " has never been"));
 }
 
 std::vector<std::size_t> World::first_part_rows() const {
-    const State& state = interior_->state;
-    std::vector<std::size_t> rows(interior_->scene.bodies.size(), no_body);
+    const State& state = whole().state;
+    std::vector<std::size_t> rows(whole().scene.bodies.size(), no_body);
     for (std::uint32_t row = state.fixed().bodies; row-- > state.fixed().first_part;)
         if (physics::is_part(state.properties[row])) rows[state.id_of(state.properties[row].owner)] = row;
     return rows;
 }
 
 std::uint64_t World::arrangements() const {
-    return interior_->arrangements;
+    return whole().arrangements;
 }
 
 }  // namespace scree

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/state_editor.h"
 #include "compute/fields/body.h"
 #include "compute/fields/check.h"
 #include "compute/scene/validator.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
@@ -127,7 +127,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
 }
 
 void World::set_bodies(std::span<const BodyChange> changes) {
-    interior_->set(changes);
+    whole().set(changes);
 }
 
 // Changes a body of the scene, checks it, and tells the runner.
@@ -155,12 +155,12 @@ void World::Impl::change(std::size_t index, const std::function<void(Body&)>& ed
 }
 
 void World::set_material(std::size_t body, const Material& material) {
-    interior_->change(
+    whole().change(
         body, [&](Body& b) { scree::set_material(b, material); }, false);
 }
 
 void World::set_mass(std::size_t body, float mass) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_body(body);
     const Body& now = in.scene.bodies[body];
     const auto refuse = [&](const std::string& reason) {
@@ -190,7 +190,7 @@ void World::Impl::refilter(std::size_t body) {
 }
 
 void World::set_filter(std::size_t body, const Filter& filter) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_body(body);
     in.keep_original(body);
     in.scene.bodies[body].filter = filter;
@@ -198,7 +198,7 @@ void World::set_filter(std::size_t body, const Filter& filter) {
 }
 
 void World::set_exclusion(std::size_t a, std::size_t b, bool excluded) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_body(a);
     in.require_body(b);
     if (a == b) throw std::invalid_argument("body " + std::to_string(a) + " cannot collide with itself");
@@ -211,7 +211,7 @@ void World::set_exclusion(std::size_t a, std::size_t b, bool excluded) {
 }
 
 void World::set_motion(std::size_t body, Motion motion) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_body(body);
     const Body& now = in.scene.bodies[body];
     const auto refuse = [&](const std::string& reason) {

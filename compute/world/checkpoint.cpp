@@ -405,7 +405,7 @@ void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, st
 }
 
 std::vector<std::byte> World::save() const {
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     in.runner->download(lasting_ranges(in.state));
     ByteWriter out;
     out.put(head_of(in.fingerprint, in.steps));
@@ -415,7 +415,7 @@ std::vector<std::byte> World::save() const {
 }
 
 void World::save_in_pieces(const TakePiece& take) const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     if (in.shared) return in.put_shares(take);
     const std::vector<std::byte> all = save();
     if (in.runner->rank() == 0) take(0, all);
@@ -464,7 +464,7 @@ CheckpointInfo inspect_checkpoint(std::span<const std::byte> state) {
 }
 
 void World::restore(std::span<const std::byte> saved) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     const Head head = checked_head(saved);
     if (head.scene != in.fingerprint)
         refuse("the checkpoint is of another scene: its fingerprint is " + hash_text(head.scene) + ", this scene's " +

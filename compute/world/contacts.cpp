@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/sensors.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
@@ -34,7 +34,7 @@ vec3 point_now(const State& state, const physics::Contact& contact, physics::uin
 }  // namespace
 
 std::vector<ContactState> World::contacts() const {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.bring(body_ranges);
     in.bring(contact_ranges);
     const State& state = in.state;
@@ -72,8 +72,8 @@ std::vector<ContactState> World::contacts() const {
 }
 
 std::vector<vec3> World::touch_forces(std::span<const std::size_t> bodies) const {
-    for (const std::size_t body : bodies) interior_->require_body(body);
-    std::vector<vec3> sums(interior_->scene.bodies.size(), vec3(0));
+    for (const std::size_t body : bodies) whole().require_body(body);
+    std::vector<vec3> sums(whole().scene.bodies.size(), vec3(0));
     for (const ContactState& contact : contacts()) {
         vec3 on_b = contact.friction;
         for (std::uint32_t k = 0; k < contact.count; ++k) on_b += contact.normal * contact.points[k].force;
@@ -86,7 +86,7 @@ std::vector<vec3> World::touch_forces(std::span<const std::size_t> bodies) const
 }
 
 void World::set_events(const EventSettings& settings) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     if (!(settings.hit_speed >= 0)) throw std::invalid_argument("events: hit_speed must be at least 0 m/s");
     if (settings == in.events.settings()) return;
     in.bring(body_ranges);
@@ -98,18 +98,18 @@ void World::set_events(const EventSettings& settings) {
 }
 
 std::vector<SensorOverlap> World::sensed() const {
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     if (!has_sensors(in.state)) return {};
     in.bring(body_ranges);
     return overlaps_of_sensors(in.state, in.runner->threads());
 }
 
 const EventSettings& World::event_settings() const {
-    return interior_->events.settings();
+    return whole().events.settings();
 }
 
 std::vector<Event> World::take_events() {
-    return interior_->events.take();
+    return whole().events.take();
 }
 
 }  // namespace scree

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/compile/joint_blocks.h"
+#include "compute/compile/scene_compiler.h"
 #include "compute/statistics.h"
-#include "compute/step/joint_blocks.h"
-#include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/extra/sleep.h"
@@ -46,7 +46,7 @@ void World::Impl::set_gravities(const std::vector<vec3>& gravities) {
 }
 
 void World::set_gravity_of(std::size_t copy, vec3 gravity) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_copy(copy);
     gravity = checked(Scene{gravity, {}, {}}).gravity;
     if (!in.state.has_copies()) return set_gravity(gravity);
@@ -58,7 +58,7 @@ void World::set_gravity_of(std::size_t copy, vec3 gravity) {
 
 // ---- rows
 // The rows of bodies and parts, as runs.
-TableRanges World::Impl::rows_of_copies(std::span<const std::size_t> which, std::initializer_list<Table> tables) const {
+TableRanges World::Impl::rows_of_copies(std::span<const std::size_t> which, const std::vector<Table>& tables) const {
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy, parts = (p.bodies - p.first_part) / p.copies;
     std::vector<std::size_t> rows;
@@ -97,9 +97,8 @@ void World::Impl::wake_copy(std::size_t copy) {
 
 // ---- back to the start
 void World::Impl::keep_start() {
-    start.poses = state.poses;
-    start.velocities = state.velocities;
-    start.strains = state.strains;
+    start.rows.clear();
+    for (std::size_t row = 0; row < state.fixed().bodies; ++row) start.rows.push_back(RowRecords::of(state, row));
     if (state.fixed().vehicles) start.vehicles = state.vehicles;
 }
 
@@ -128,29 +127,23 @@ void World::Impl::reset(std::span<const std::size_t> which) {
     if (which.empty()) return;
     const physics::Parameters& p = state.fixed();
     const std::size_t n = p.bodies_of_copy;
-    TableRanges changed =
-        rows_of_copies(which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
+    TableRanges changed = rows_of_copies(which, tables_of_owners());
     if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
-    state.make(Table::masses);
-    const auto put_back = [&](std::size_t row, std::size_t place) {
-        state.poses[row] = start.poses[place];
-        state.velocities[row] = start.velocities[place];
-        state.strains[row] = start.strains[place];
-        state.sleep_states[row] = 0;
-        state.masses[row] = {};
-    };
     for (const TableRange& run : rows_of_copies(which, {Table::poses}))
         for (std::size_t row = run.first; row < run.first + run.count; ++row) {
             const std::size_t place = row < p.first_part ? state.id_of(static_cast<std::uint32_t>(row)) : row;
-            put_back(row, place);
+            RowRecords at_start = start.rows[place];
+            at_start.properties = state.properties[row];
+            at_start.put(state, row);
             if (row >= p.first_part) continue;
             Body& body = scene.bodies[place];
             state.properties[row].motion =
                 body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_PENDING;
             if (body.motion != Motion::fixed || std::holds_alternative<Plane>(body.shape)) continue;
-            if (body.position == start.poses[place].position && body.orientation == start.poses[place].orientation) continue;
-            body.position = start.poses[place].position;
-            body.orientation = start.poses[place].orientation;
+            const physics::Pose& pose = at_start.poses;
+            if (body.position == pose.position && body.orientation == pose.orientation) continue;
+            body.position = pose.position;
+            body.orientation = pose.orientation;
             edits.clear();
         }
     const std::size_t vehicles = scene.vehicles.size() / copies();
@@ -173,7 +166,7 @@ void World::Impl::reset(std::span<const std::size_t> which) {
 }
 
 void World::reset(std::span<const std::uint8_t> mask) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_copies("reset");
     if (mask.size() != in.copies())
         throw std::invalid_argument("reset: a mask of " + std::to_string(mask.size()) + " for " + std::to_string(in.copies()) +
@@ -185,56 +178,56 @@ void World::reset(std::span<const std::uint8_t> mask) {
 }
 
 void World::reset_copy(std::size_t copy) {
-    interior_->require_copies("reset");
-    interior_->require_copy(copy);
-    interior_->reset({&copy, 1});
+    whole().require_copies("reset");
+    whole().require_copy(copy);
+    whole().reset({&copy, 1});
 }
 
 // ---- asking
 std::size_t World::copies() const {
-    return interior_.as_it_is().copies();
+    return local().copies();
 }
 std::size_t World::bodies_of_copy() const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     return in.state.has_copies() ? in.state.fixed().bodies_of_copy : in.bodies();
 }
 std::size_t World::body_of(std::size_t copy, std::size_t body) const {
-    interior_->require_copy(copy);
+    whole().require_copy(copy);
     if (body >= bodies_of_copy())
         throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(bodies_of_copy()) + " in a copy");
     return copy * bodies_of_copy() + body;
 }
 std::size_t World::copy_of(std::size_t body) const {
-    interior_->require_body(body);
-    return interior_->copy_of(body);
+    whole().require_body(body);
+    return whole().copy_of(body);
 }
 vec3 World::gravity_of(std::size_t copy) const {
-    interior_->require_copy(copy);
-    return interior_->gravity_of(copy);
+    whole().require_copy(copy);
+    return whole().gravity_of(copy);
 }
 void World::wake_copy(std::size_t copy) {
-    interior_->require_copy(copy);
-    interior_->wake_copy(copy);
+    whole().require_copy(copy);
+    whole().wake_copy(copy);
 }
 
 std::uint64_t World::state_hash_of(std::size_t copy) const {
-    interior_->require_copy(copy);
-    if (!interior_->state.has_copies()) return state_hash();
-    interior_->bring(body_ranges);
-    return hash_of(interior_->state, static_cast<std::uint32_t>(copy));
+    whole().require_copy(copy);
+    if (!whole().state.has_copies()) return state_hash();
+    whole().bring(body_ranges);
+    return hash_of(whole().state, static_cast<std::uint32_t>(copy));
 }
 
 std::vector<std::uint64_t> World::state_hashes() const {
-    if (!interior_->state.has_copies()) return {state_hash()};
-    interior_->bring(body_ranges);
+    if (!whole().state.has_copies()) return {state_hash()};
+    whole().bring(body_ranges);
     std::vector<std::uint64_t> hashes(copies());
-    interior_->runner->threads().for_each(
-        hashes.size(), [&](std::size_t copy) { hashes[copy] = hash_of(interior_->state, static_cast<std::uint32_t>(copy)); });
+    whole().runner->threads().for_each(
+        hashes.size(), [&](std::size_t copy) { hashes[copy] = hash_of(whole().state, static_cast<std::uint32_t>(copy)); });
     return hashes;
 }
 
 Statistics World::statistics_of(std::size_t copy) const {
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     in.require_copy(copy);
     if (!in.state.has_copies()) return statistics();
     in.bring(body_ranges);

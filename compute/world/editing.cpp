@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/compile/scene_compiler.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/scene_compiler.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -72,7 +72,7 @@ void World::Impl::take_up_grips() {
 }
 
 std::size_t World::grip(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     const auto free = std::find(in.grips.begin(), in.grips.end(), std::nullopt);
     if (free == in.grips.end()) throw std::length_error("at most " + std::to_string(most_grips) + " grips hold at once");
     check(spring);
@@ -85,23 +85,23 @@ std::size_t World::grip(std::size_t body, vec3 anchor, vec3 target, const GripSp
 
 void World::move_grip(std::size_t grip, vec3 target) {
     demand(within(target, farthest), "grip: the target must be within 1000000 m of 0");
-    interior_->held(grip).target = target;
+    whole().held(grip).target = target;
 }
 
 void World::release(std::size_t grip) {
-    interior_->held(grip);
-    interior_->grips[grip].reset();
+    whole().held(grip);
+    whole().grips[grip].reset();
 }
 
 void World::explode(vec3 centre, float radius, float speed, std::optional<std::size_t> copy) {
-    if (copy) interior_->require_copy(*copy);
+    if (copy) whole().require_copy(*copy);
     demand(within(centre, farthest), "explosion: the centre must be within 1000000 m of 0");
     demand(radius > 0 && radius <= farthest, "explosion: the radius must be in (0, 1000000] m");
     demand(std::abs(speed) <= 1e4f, "explosion: the speed must be within 10000 m/s");
     const std::vector<BodyState> states = bodies();
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const Body& body = interior_->scene.bodies[i];
-        if (body.motion != Motion::dynamic || !states[i].exists || (copy && interior_->copy_of(i) != *copy)) continue;
+        const Body& body = whole().scene.bodies[i];
+        if (body.motion != Motion::dynamic || !states[i].exists || (copy && whole().copy_of(i) != *copy)) continue;
         const vec3 apart = states[i].position - centre;
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
@@ -124,7 +124,7 @@ void World::Impl::retune(const Settings& changed) {
 }
 
 void World::set_fields(const Fields& fields) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     Fields changed = fields;
     check_world_fields(changed);
     in.scene.fields = std::move(changed);
@@ -135,35 +135,35 @@ void World::set_fields(const Fields& fields) {
 }
 
 void World::set_gravity(vec3 gravity) {
-    interior_->scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
-    if (!interior_->state.gravities.empty()) interior_->set_gravities({});
-    interior_->retune(interior_->settings);
+    whole().scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
+    if (!whole().state.gravities.empty()) whole().set_gravities({});
+    whole().retune(whole().settings);
     wake_all();
 }
 
 void World::set_friction_factor(float factor) {
-    Settings changed = interior_->settings;
+    Settings changed = whole().settings;
     changed.friction_factor = factor;
-    interior_->retune(checked(changed));
+    whole().retune(checked(changed));
     wake_all();
 }
 
 void World::set_least_restitution(float restitution) {
-    Settings changed = interior_->settings;
+    Settings changed = whole().settings;
     changed.least_restitution = restitution;
-    interior_->retune(checked(changed));
+    whole().retune(checked(changed));
     wake_all();
 }
 
 void World::set_substeps(int substeps) {
-    Settings changed = interior_->settings;
+    Settings changed = whole().settings;
     changed.substeps = substeps;
-    interior_->retune(checked(changed));
+    whole().retune(checked(changed));
 }
 
 void World::set_sleeping(bool allowed) {
-    interior_->settings.sleeping = allowed;
-    interior_->state.fixed().sleep_steps = sleep_steps_of(interior_->settings);
+    whole().settings.sleeping = allowed;
+    whole().state.fixed().sleep_steps = sleep_steps_of(whole().settings);
 }
 
 }  // namespace scree

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "compute/events.h"
+#include "compute/parallel/threads.h"
 #include "compute/scene.h"
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
-#include "compute/step/threads.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/world/byte_stream.h"
 
 namespace scree {

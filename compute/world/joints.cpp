@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "compute/compile/joint_blocks.h"
+#include "compute/compile/state_editor.h"
 #include "compute/scene/joint_validation.h"
-#include "compute/step/joint_blocks.h"
-#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -91,22 +91,22 @@ void World::Impl::wake(const Joint& joint) {
 }
 
 JointState World::joint(std::size_t index) const {
-    interior_->require_joint_index(index);
-    interior_->bring(body_ranges);
-    interior_->bring(joint_ranges);
-    return interior_->joint_state(index);
+    whole().require_joint_index(index);
+    whole().bring(body_ranges);
+    whole().bring(joint_ranges);
+    return whole().joint_state(index);
 }
 
 std::vector<JointState> World::joints() const {
-    interior_->bring(body_ranges);
-    interior_->bring(joint_ranges);
+    whole().bring(body_ranges);
+    whole().bring(joint_ranges);
     std::vector<JointState> all;
-    for (std::size_t i = 0; i < interior_->scene.joints.size(); ++i) all.push_back(interior_->joint_state(i));
+    for (std::size_t i = 0; i < whole().scene.joints.size(); ++i) all.push_back(whole().joint_state(i));
     return all;
 }
 
 void World::set_motor(std::size_t joint, JointAxis axis, const Motor& motor) {
-    interior_->set_axis(joint, axis, [&](Axis& a) {
+    whole().set_axis(joint, axis, [&](Axis& a) {
         a.spring.reset();
         a.friction = 0;
         a.motor = motor;
@@ -114,7 +114,7 @@ void World::set_motor(std::size_t joint, JointAxis axis, const Motor& motor) {
 }
 
 void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) {
-    interior_->set_axis(joint, axis, [&](Axis& a) {
+    whole().set_axis(joint, axis, [&](Axis& a) {
         a.motor.reset();
         a.friction = 0;
         a.spring = spring;
@@ -122,7 +122,7 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
 }
 
 void World::apply_joint_forces(std::span<const JointForce> forces) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     TableRanges poses;
     for (const JointForce& one : forces) {
         in.require_joint(one.joint);
@@ -191,7 +191,7 @@ void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
 }
 
 std::size_t World::add_joint(const Joint& joint) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_one_copy("add_joint");
     in.count_joints();
     const std::size_t index = in.scene.joints.size();
@@ -212,7 +212,7 @@ std::size_t World::add_joint(const Joint& joint) {
 
 std::vector<JointHandle> World::add_joints(std::span<const Joint> given) {
     if (given.empty()) return {};
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_one_copy("add_joints");
     const std::vector<Joint> joints(given.begin(), given.end());  // they may be of the scene, which grows
     in.count_joints();
@@ -246,7 +246,7 @@ std::vector<JointHandle> World::add_joints(std::span<const Joint> given) {
 }
 
 void World::remove_joint(std::size_t index) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_one_copy("remove_joint");
     in.require_joint(index);
     in.require_no_wheel(index);
@@ -262,7 +262,7 @@ void World::remove_joint(std::size_t index) {
 }
 
 void World::remove_joints(std::span<const JointHandle> joints) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_one_copy("remove_joints");
     std::vector<std::size_t> indices;
     for (const JointHandle& joint : joints) {
@@ -293,19 +293,19 @@ void World::Impl::take_away_joint(std::size_t joint) {
 }
 
 JointHandle World::joint_handle_of(std::size_t joint) const {
-    interior_->require_joint(joint);
-    interior_->count_joints();
-    return {static_cast<std::uint32_t>(joint), interior_->joint_births[joint]};
+    whole().require_joint(joint);
+    whole().count_joints();
+    return {static_cast<std::uint32_t>(joint), whole().joint_births[joint]};
 }
 
 bool World::is_valid(JointHandle joint) const {
-    return interior_->place_of_joint(joint).has_value();
+    return whole().place_of_joint(joint).has_value();
 }
 
 std::size_t World::index_of(JointHandle joint) const {
-    if (const auto index = interior_->place_of_joint(joint)) return *index;
+    if (const auto index = whole().place_of_joint(joint)) return *index;
     throw std::out_of_range("joint " + std::to_string(joint.index) + " of birth " + std::to_string(joint.birth) +
-                            (joint.birth < interior_->births ? " has been removed" : " has never been"));
+                            (joint.birth < whole().births ? " has been removed" : " has never been"));
 }
 
 // remove_joint moves higher ones down.

@@ -1,7 +1,7 @@
 // World: when to reorder bodies in memory.
 #include <utility>
 
-#include "compute/step/memory_order.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -70,14 +70,14 @@ void World::Impl::keep_order() {
 }
 
 void World::reorder() {
-    interior_->reorder_now = true;
+    whole().reorder_now = true;
 }
 std::uint64_t World::reorderings() const {
-    return interior_->reorderings;
+    return whole().reorderings;
 }
 std::size_t World::row_of(std::size_t body) const {
-    interior_->require_body(body);
-    return interior_->state.row_of(body);
+    whole().require_body(body);
+    return whole().state.row_of(body);
 }
 
 }  // namespace scree

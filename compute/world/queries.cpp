@@ -7,10 +7,10 @@
 #include <string>
 #include <tuple>
 
+#include "compute/parallel/threads.h"
 #include "compute/scene/bounds_tree.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene/validator.h"
-#include "compute/step/threads.h"
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
@@ -248,9 +248,9 @@ std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCas
         if (!is_unit(cast.along)) refuse_query("cast", i, "its direction must be of length 1");
         if (!(cast.reach >= 0 && cast.reach <= 1e6f)) refuse_query("cast", i, "its reach must be between 0 and 1000000 m");
     }
-    const QueryScene& bodies = interior_->query_scene();
+    const QueryScene& bodies = whole().query_scene();
     std::vector<std::optional<QueryHit>> hits(casts.size());
-    interior_->runner->threads().for_each(casts.size(), [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], turns[i]); });
+    whole().runner->threads().for_each(casts.size(), [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], turns[i]); });
     return hits;
 }
 
@@ -261,9 +261,9 @@ std::vector<std::optional<QueryHit>> World::closest_points(std::span<const Close
         if (!(points[i].reach > 0 && points[i].reach <= 1e6f))
             refuse_query("point", i, "its reach must be above 0 and at most 1000000 m");
     }
-    const QueryScene& bodies = interior_->query_scene();
+    const QueryScene& bodies = whole().query_scene();
     std::vector<std::optional<QueryHit>> found(points.size());
-    interior_->runner->threads().for_each(points.size(), [&](std::size_t i) { found[i] = bodies.closest(points[i]); });
+    whole().runner->threads().for_each(points.size(), [&](std::size_t i) { found[i] = bodies.closest(points[i]); });
     return found;
 }
 
@@ -275,10 +275,10 @@ QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) con
         turns.push_back(checked_turn("overlap", i, queries[i].orientation));
         if (!is_finite(queries[i].position)) refuse_query("overlap", i, "its position must be finite");
     }
-    const QueryScene& bodies = interior_->query_scene();
+    const QueryScene& bodies = whole().query_scene();
     std::vector<std::vector<QueryPart>> lists(queries.size());
-    interior_->runner->threads().for_each(queries.size(),
-                                          [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
+    whole().runner->threads().for_each(queries.size(),
+                                       [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
     return joined_lists(std::move(lists));
 }
 

@@ -8,7 +8,7 @@
 
 #include "compute/queries.h"
 #include "compute/scene/bounds_tree.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "compute/parallel/threads.h"
 #include "compute/queries.h"
-#include "compute/step/ray_task.h"
-#include "compute/step/threads.h"
+#include "compute/scene/ray_task.h"
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
@@ -65,7 +65,7 @@ private:
 
 std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     const Threads& threads = in.runner->threads();
     std::vector<std::optional<QueryHit>> hits(rays.size());
     if (in.runner->casts(rays.size())) {
@@ -85,7 +85,7 @@ std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> 
 
 std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     const Threads& threads = in.runner->threads();
     std::vector<std::uint8_t> hits(rays.size());
     if (in.runner->casts(rays.size())) {
@@ -103,7 +103,7 @@ std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const 
 
 QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
-    const Impl& in = *interior_;
+    const Impl& in = whole();
     const Threads& threads = in.runner->threads();
     std::vector<std::vector<QueryHit>> lists(rays.size());
     if (in.runner->casts(rays.size())) {

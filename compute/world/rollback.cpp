@@ -15,7 +15,7 @@ void World::Impl::drop_kept() {
 }
 
 void World::keep_state() {
-    Impl& in = *interior_;
+    Impl& in = whole();
     if (in.broken) throw std::logic_error("a previous step ran out of memory; the world can be read but not kept");
     Impl::Kept next;
     const auto same = std::ranges::find(in.kept, in.steps, &Impl::Kept::steps);
@@ -40,7 +40,7 @@ void World::keep_state() {
 }
 
 void World::roll_back(std::uint64_t steps) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     const auto found =
         std::ranges::find_if(in.kept, [&](const Impl::Kept& one) { return steps <= in.steps && one.steps == in.steps - steps; });
     if (found == in.kept.end()) {
@@ -55,12 +55,12 @@ void World::roll_back(std::uint64_t steps) {
 
 std::vector<std::uint64_t> World::kept_states() const {
     std::vector<std::uint64_t> steps;
-    for (const Impl::Kept& one : interior_->kept) steps.push_back(one.steps);
+    for (const Impl::Kept& one : whole().kept) steps.push_back(one.steps);
     return steps;
 }
 
 void World::drop_states() {
-    interior_->drop_kept();
+    whole().drop_kept();
 }
 
 }  // namespace scree

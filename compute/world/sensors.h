@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "compute/events.h"
-#include "compute/step/state.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

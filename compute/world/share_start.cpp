@@ -10,8 +10,8 @@
 #include <utility>
 #include <variant>
 
-#include "compute/step/memory_order.h"
-#include "compute/step/scene_compiler.h"
+#include "compute/compile/scene_compiler.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/state_bytes.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/solve/material.h"

@@ -8,11 +8,11 @@
 #include <map>
 #include <vector>
 
+#include "compute/compile/grid_layout.h"
 #include "compute/scene/body_validation.h"
 #include "compute/scene_stream.h"
 #include "compute/settings.h"
-#include "compute/step/grid_layout.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -50,12 +50,12 @@ const HullForm* form_of(const Body& body) {
 }  // namespace
 
 void World::share_out() {
-    Impl& in = interior_.as_it_is();
+    Impl& in = local();
     if (in.runner->ranks() > 1 && !in.shared && in.can_be_shared()) in.share_out();
 }
 
 std::optional<World::Share> World::share() const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     if (!in.shared) return std::nullopt;
     in.runner->download_share();
     return Share{in.state, in.shared->still, in.shared->hulls};

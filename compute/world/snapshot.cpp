@@ -1,20 +1,20 @@
 // World: its present scene, of all bodies or of one copy.
 #include <utility>
 
+#include "compute/compile/joint_blocks.h"
 #include "compute/scene/fracture.h"
-#include "compute/step/joint_blocks.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
 
 Scene World::snapshot() const {
-    interior_->require_one_copy("snapshot: name the copy (snapshot_of)");
-    return interior_->snapshot(std::nullopt);
+    whole().require_one_copy("snapshot: name the copy (snapshot_of)");
+    return whole().snapshot(std::nullopt);
 }
 
 Scene World::snapshot_of(std::size_t copy) const {
-    interior_->require_copy(copy);
-    return interior_->snapshot(copy);
+    whole().require_copy(copy);
+    return whole().snapshot(copy);
 }
 
 Scene World::Impl::snapshot(std::optional<std::size_t> copy) const {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "compute/step/scene_compiler.h"
-#include "compute/step/table_layout.h"
+#include "compute/compile/scene_compiler.h"
+#include "compute/tables/table_layout.h"
 #include "compute/world/state_check.h"
 #include "shaders/physics/base/work_counts.h"
 
@@ -76,8 +76,9 @@ std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std:
     std::vector<std::pair<Table, std::size_t>> all;
     for (const Table table : row_tables) all.emplace_back(table, rows);
     all.emplace_back(Table::first_contacts, rows + 1);
-    for (const Table table : {Table::contacts, Table::impulses}) all.emplace_back(table, contacts);
-    if (bounces) all.emplace_back(Table::impacts, contacts);
+    for (const Table table : contact_tables)
+        if (bounces || table_infos()[static_cast<std::size_t>(table)].length != BufferLength::impacts)
+            all.emplace_back(table, contacts);
     return all;
 }
 

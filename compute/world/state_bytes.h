@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/world/byte_stream.h"
 
 namespace scree {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -5,7 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "compute/step/table_layout.h"
+#include "compute/tables/lasting.h"
+#include "compute/tables/table_layout.h"
 #include "compute/world/byte_stream.h"
 #include "compute/world/state_bytes.h"
 
@@ -75,10 +76,10 @@ void StateParts::put_tables(const Take& take) const {
             const std::uint32_t last = std::min(first + rows_of_piece, rows_);
             if (table == Table::first_contacts)
                 put_first_contacts(first, last, before, take);
-            else if (table == Table::contacts || table == Table::impulses || table == Table::impacts)
-                put_contacts(table, first, last, take);
-            else
+            else if (is_of_rows(table))
                 put_rows(table, first, last, take);
+            else
+                put_contacts(table, first, last, take);
         }
         if (table == Table::first_contacts && runner_.rank() == 0) take(std::as_bytes(std::span(&before, 1)));
     }
@@ -145,15 +146,14 @@ void StateParts::put_first_contacts(std::uint32_t first, std::uint32_t last, std
 void StateParts::put_contacts(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const {
     ByteWriter out;
     for_each_contact(first, last, [&](std::uint32_t whole, std::uint32_t k) {
-        physics::Contact contact = state_.contacts[k];
+        ContactRecords records = ContactRecords::of(state_, k);
+        physics::Contact& contact = records.contacts;
         for (physics::uint* row : {&contact.a, &contact.b}) *row = state_.id_of(*row);
         out.put(ContactPlace{whole, contact.a == whole ? contact.b : contact.a});
-        if (table == Table::contacts)
-            out.put(contact);
-        else if (table == Table::impulses)
-            out.put(state_.impulses[k]);
-        else
-            out.put(physics::contact_impact_of(state_.impulse(k)));
+#define SCREE_PUT(name) \
+    if (table == Table::name) out.put(records.name);
+        SCREE_LASTING_OF_CONTACTS(SCREE_PUT)
+#undef SCREE_PUT
     });
     const std::size_t bytes = record_bytes(table);
     std::vector<std::pair<ContactPlace, std::span<const std::byte>>> piece;

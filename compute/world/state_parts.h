@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "compute/runner.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree {
 

@@ -50,7 +50,7 @@ void World::Impl::require_reachable(const BodyTarget& target) const {
 }
 
 void World::move_bodies(std::span<const BodyTarget> targets) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     TableRanges poses;
     for (const BodyTarget& target : targets) {
         in.require_reachable(target);
@@ -97,7 +97,7 @@ int World::Impl::steps_until_arrival() const {
 }
 
 void World::set_user_data(std::size_t body, std::uint64_t data) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_body(body);
     in.keep_original(body);
     in.scene.bodies[body].user_data = data;
@@ -105,8 +105,8 @@ void World::set_user_data(std::size_t body, std::uint64_t data) {
 }
 
 std::uint64_t World::user_data(std::size_t body) const {
-    interior_->require_body(body);
-    return interior_->scene.bodies[body].user_data;
+    whole().require_body(body);
+    return whole().scene.bodies[body].user_data;
 }
 
 }  // namespace scree

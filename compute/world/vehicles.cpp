@@ -75,38 +75,38 @@ void World::Impl::keep_vehicles(Scene& snapshot, const std::vector<std::size_t>&
 }
 
 void World::drive(std::size_t vehicle, const Controls& controls) {
-    interior_->require_vehicle(vehicle);
+    whole().require_vehicle(vehicle);
     const auto within = [](float value, float low) { return value >= low && value <= 1; };
     if (!within(controls.throttle, -1) || !within(controls.steer, -1) || !within(controls.brake, 0) ||
         !within(controls.hand_brake, 0))
         throw std::invalid_argument("vehicle " + std::to_string(vehicle) +
                                     ": throttle and steer must be between -1 and 1, brake and hand_brake between 0 and 1");
-    interior_->tell(vehicle, controls, false);
+    whole().tell(vehicle, controls, false);
 }
 
 void World::drive_by_route(std::size_t vehicle) {
-    interior_->require_vehicle(vehicle);
-    if (interior_->scene.vehicles[vehicle].route.empty())
+    whole().require_vehicle(vehicle);
+    if (whole().scene.vehicles[vehicle].route.empty())
         throw std::invalid_argument("vehicle " + std::to_string(vehicle) + " has no route");
-    interior_->tell(vehicle, {}, true);
+    whole().tell(vehicle, {}, true);
 }
 
 VehicleState World::vehicle(std::size_t index) const {
-    interior_->require_vehicle(index);
-    interior_->bring(vehicle_ranges);
-    return interior_->vehicle_state(index);
+    whole().require_vehicle(index);
+    whole().bring(vehicle_ranges);
+    return whole().vehicle_state(index);
 }
 
 std::vector<VehicleState> World::vehicles() const {
-    interior_->bring(vehicle_ranges);
+    whole().bring(vehicle_ranges);
     std::vector<VehicleState> all;
-    for (std::size_t i = 0; i < interior_->scene.vehicles.size(); ++i) all.push_back(interior_->vehicle_state(i));
+    for (std::size_t i = 0; i < whole().scene.vehicles.size(); ++i) all.push_back(whole().vehicle_state(i));
     return all;
 }
 
 // Wheels get their initial poses relative to the chassis.
 void World::reset_upright(std::size_t vehicle) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     in.require_vehicle(vehicle);
     const Vehicle& v = in.scene.vehicles[vehicle];
     in.runner->download(row_ranges(in.state, in.state.row_of(v.chassis)));

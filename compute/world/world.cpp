@@ -9,10 +9,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "compute/compile/scene_compiler.h"
 #include "compute/scene/fracture.h"
 #include "compute/statistics.h"
-#include "compute/step/memory_order.h"
-#include "compute/step/scene_compiler.h"
+#include "compute/tables/memory_order.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/quarantine.h"
@@ -215,21 +215,16 @@ int World::Impl::steps_alone(int count) {
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
     : World(Scene(scene), settings, std::move(runner)) {}
 World::World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : interior_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings),
-                                       std::move(runner), 0)) {}
+    : impl_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings), std::move(runner),
+                                   0)) {}
 World::World(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : interior_(Impl::of_streamed(scene, settings, std::move(runner))) {}
+    : impl_(Impl::of_streamed(scene, settings, std::move(runner))) {}
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
              const VaryCopy& vary)
-    : interior_(
-          std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), std::move(runner), copies)) {}
+    : impl_(std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), std::move(runner), copies)) {}
 World::World(const Scene& scene, const Settings& settings, int threads)
     : World(scene, settings, make_reference_runner(threads)) {}
-World::Interior::Interior(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-World::Interior::Interior(Interior&&) noexcept = default;
-World::Interior& World::Interior::operator=(Interior&&) noexcept = default;
-World::Interior::~Interior() = default;
-World::Impl& World::Interior::operator*() const {
+World::Impl& World::whole() const {
     impl_->make_whole();
     return *impl_;
 }
@@ -239,7 +234,7 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::step(int count) {
     constexpr int most_alone = 64;  // between them the memory order is checked
-    Impl& in = interior_.as_it_is();
+    Impl& in = local();
     while (count > 0) {
         if (in.is_still()) return in.pass_over(count);
         in.step();
@@ -251,14 +246,14 @@ void World::step(int count) {
 }
 
 void World::set_memory_limit(std::size_t bytes) {
-    interior_.as_it_is().memory_limit = bytes;
+    local().memory_limit = bytes;
 }
 
 std::uint64_t World::steps() const {
-    return interior_.as_it_is().steps;
+    return local().steps;
 }
 std::size_t World::bodies_there() const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     const std::vector<std::uint8_t>& gone = in.gone;
     if (!in.state.has_fractures())
         return in.bodies() - static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
@@ -269,35 +264,35 @@ double World::time() const {
     return static_cast<double>(steps()) / settings().rate;
 }
 const Scene& World::scene() const {
-    Impl& in = interior_.as_it_is();
+    Impl& in = local();
     if (in.shared) in.make_whole();
     return in.scene;
 }
 const Settings& World::settings() const {
-    return interior_.as_it_is().settings;
+    return local().settings;
 }
 Runner& World::runner() {
-    return *interior_.as_it_is().runner;
+    return *local().runner;
 }
 
 void World::apply_force(std::size_t body, vec3 force, vec3 offset) {
-    physics::Action& action = interior_->action_on(body, force, offset);
+    physics::Action& action = whole().action_on(body, force, offset);
     action.force += force;
     action.torque += moment(offset, force);
 }
 void World::apply_torque(std::size_t body, vec3 torque) {
-    interior_->action_on(body, torque, torque).torque += torque;
+    whole().action_on(body, torque, torque).torque += torque;
 }
 void World::apply_impulse(std::size_t body, vec3 impulse, vec3 offset) {
-    physics::Action& action = interior_->action_on(body, impulse, offset);
+    physics::Action& action = whole().action_on(body, impulse, offset);
     action.impulse += impulse;
     action.angular_impulse += moment(offset, impulse);
 }
 void World::apply_angular_impulse(std::size_t body, vec3 impulse) {
-    interior_->action_on(body, impulse, impulse).angular_impulse += impulse;
+    whole().action_on(body, impulse, impulse).angular_impulse += impulse;
 }
 void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity) {
-    Impl& in = *interior_;
+    Impl& in = whole();
     physics::Action& action = in.action_on(body, velocity, angular_velocity, /* kinematic_too */ true);
     if (in.scene.bodies[body].motion == Motion::kinematic) {
         const std::uint32_t row = in.state.row_of(body);
@@ -325,10 +320,10 @@ void World::Impl::jump_to_velocity(std::size_t body) {
 }
 
 void World::wake(std::size_t body) {
-    interior_->action_on(body, vec3(0), vec3(0));
+    whole().action_on(body, vec3(0), vec3(0));
 }
 void World::wake_all() {
-    interior_->state.fixed().wake_all = 1;
+    whole().state.fixed().wake_all = 1;
 }
 BodyState World::Impl::body_state(std::size_t i) const {
     const std::uint32_t row = state.row_of(i);
@@ -342,8 +337,8 @@ BodyState World::Impl::body_state(std::size_t i) const {
 }
 
 std::vector<Quarantine> World::quarantines() const {
-    if (interior_.as_it_is().state.counted().quarantined == 0) return {};
-    const Impl& in = *interior_;
+    if (local().state.counted().quarantined == 0) return {};
+    const Impl& in = whole();
     in.bring(body_ranges);
     in.runner->download({{Table::masses, 0, in.state.fixed().bodies}});
     std::vector<Quarantine> found;
@@ -361,23 +356,23 @@ std::vector<Quarantine> World::quarantines() const {
 }
 
 std::vector<BodyState> World::bodies() const {
-    interior_->bring(body_ranges);
-    std::vector<BodyState> bodies(interior_->scene.bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = interior_->body_state(i);
+    whole().bring(body_ranges);
+    std::vector<BodyState> bodies(whole().scene.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = whole().body_state(i);
     return bodies;
 }
 
 BodyState World::body(std::size_t index) const {
-    interior_->require_body(index);
-    interior_->runner->download(row_ranges(interior_->state, interior_->state.row_of(index)));
-    return interior_->body_state(index);
+    whole().require_body(index);
+    whole().runner->download(row_ranges(whole().state, whole().state.row_of(index)));
+    return whole().body_state(index);
 }
 
 std::vector<BodyContact> World::contacts_of(std::size_t body) const {
-    interior_->require_body(body);
-    interior_->bring(body_ranges);
-    interior_->bring(contact_ranges);
-    const State& state = interior_->state;
+    whole().require_body(body);
+    whole().bring(body_ranges);
+    whole().bring(contact_ranges);
+    const State& state = whole().state;
     std::vector<BodyContact> found;
     for (const std::uint32_t i : contacts_by_id(state)) {
         const physics::Contact& contact = state.contacts[i];
@@ -409,11 +404,11 @@ ContactSums World::Impl::all_contact_sums() const {
 }
 
 Statistics World::statistics() const {
-    if (interior_.as_it_is().shared) return interior_.as_it_is().statistics_of_shares();
-    interior_->bring(body_ranges);
-    interior_->bring(joint_ranges);
-    Statistics found = scree::statistics_of(interior_->scene, interior_->state, interior_->all_contact_sums());
-    const std::vector<std::uint8_t>& gone = interior_->joints_gone;
+    if (local().shared) return local().statistics_of_shares();
+    whole().bring(body_ranges);
+    whole().bring(joint_ranges);
+    Statistics found = scree::statistics_of(whole().scene, whole().state, whole().all_contact_sums());
+    const std::vector<std::uint8_t>& gone = whole().joints_gone;
     const auto removed = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
     found.joints -= removed;
     found.joints_broken -= removed;
@@ -421,38 +416,38 @@ Statistics World::statistics() const {
 }
 
 const State& World::state() const {
-    interior_->bring(body_ranges);
-    interior_->bring(contact_ranges);
-    interior_->bring(joint_ranges);
-    interior_->bring(vehicle_ranges);
-    return interior_->state;
+    whole().bring(body_ranges);
+    whole().bring(contact_ranges);
+    whole().bring(joint_ranges);
+    whole().bring(vehicle_ranges);
+    return whole().state;
 }
 
 std::uint64_t World::state_hash() const {
-    if (interior_.as_it_is().shared) return interior_.as_it_is().hash_of_shares();
-    interior_->bring(body_ranges);
-    return hash_of(interior_->state);
+    if (local().shared) return local().hash_of_shares();
+    whole().bring(body_ranges);
+    return hash_of(whole().state);
 }
 
 std::uint64_t World::buffer_growths() const {
-    return interior_.as_it_is().growths;
+    return local().growths;
 }
 std::size_t World::buffer_bytes() const {
-    const Impl& in = interior_.as_it_is();
+    const Impl& in = local();
     return in.state.bytes() + in.state.bytes_of_loops();
 }
 void World::set_profiling(bool on) {
-    interior_.as_it_is().runner->set_profiling(on);
+    local().runner->set_profiling(on);
 }
 void World::set_timeline(std::shared_ptr<Timeline> timeline) {
-    interior_.as_it_is().runner->set_timeline(timeline);
-    interior_.as_it_is().timeline = std::move(timeline);
+    local().runner->set_timeline(timeline);
+    local().timeline = std::move(timeline);
 }
 StageTimes World::stage_times() const {
-    return interior_.as_it_is().runner->stage_times();
+    return local().runner->stage_times();
 }
 StageTimes World::last_stage_times() const {
-    return interior_.as_it_is().runner->last_stage_times();
+    return local().runner->last_stage_times();
 }
 
 }  // namespace scree

@@ -18,7 +18,7 @@
 #include "compute/scene/copies.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/statistics.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/world.h"
 #include "compute/world/events.h"
 #include "compute/world/query_scene.h"
@@ -92,9 +92,7 @@ struct World::Impl {
     Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, std::size_t copies);
     // copies.cpp: what a reset puts back, by row, as bodies begin in the order of their ids; empty for a scene without copies.
     struct Start {
-        std::vector<physics::Pose> poses;
-        std::vector<physics::Velocity> velocities;
-        std::vector<float> strains;
+        std::vector<RowRecords> rows;
         std::vector<physics::Vehicle> vehicles;
     };
     Start start;
@@ -108,7 +106,7 @@ struct World::Impl {
     void set_gravities(const std::vector<vec3>& gravities);  // of all copies
     void wake_copy(std::size_t copy);
     void wake_copy_of(std::size_t body) { wake_copy(copy_of(body)); }
-    TableRanges rows_of_copies(std::span<const std::size_t> which, std::initializer_list<Table> tables) const;
+    TableRanges rows_of_copies(std::span<const std::size_t> which, const std::vector<Table>& tables) const;
     void reset_joints(std::size_t copy, TableRanges& changed);
     void reset(std::span<const std::size_t> which);
     Scene snapshot(std::optional<std::size_t> copy) const;

@@ -10,9 +10,9 @@
 #include <map>
 #include <numeric>
 
+#include "compute/plan/memory_traffic.h"
+#include "compute/plan/stage_fusion.h"
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/memory_traffic.h"
-#include "compute/step/stage_fusion.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"

@@ -27,7 +27,7 @@ struct Cost {
 struct StageCost {
     std::string name;
     Cost ms;
-    double bytes = 0;  // least memory traffic per step (compute/step/memory_traffic.h)
+    double bytes = 0;  // least memory traffic per step (compute/plan/memory_traffic.h)
 
     double bytes_per_second() const { return ms.median > 0 ? bytes / ms.median * 1e3 : 0; }
 };

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree::demos {
 

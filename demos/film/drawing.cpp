@@ -7,7 +7,7 @@
 #include <span>
 
 #include "compute/scene/mesh.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "demos/film/solid_meshes.h"
 #include "demos/program/exit_status.h"
 #include "host/device_error.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/program/backend.h"
 #include "demos/program/copies.h"

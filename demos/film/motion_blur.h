@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 
 namespace scree::demos {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "demos/film/camera.h"
 #include "demos/film/camera_track.h"
 #include "demos/film/channel_writer.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "demos/film/drawing.h"
 #include "host/device_error.h"
 

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include "compute/compile/scene_compiler.h"
 #include "compute/scene/body_validation.h"
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/scene_compiler.h"
 
 namespace scree::demos {
 

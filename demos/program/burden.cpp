@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/body_scale.h"
 
 namespace scree::demos {

@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
+#include "compute/plan/lockstep_result.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/lockstep_result.h"
 #include "demos/program/options.h"
 
 namespace scree::demos {

@@ -12,7 +12,7 @@
 #include <numeric>
 
 #include "compute/fields/settings.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
 #include "demos/program/commit.h"
 #include "demos/program/progress.h"
 #include "demos/program/table.h"

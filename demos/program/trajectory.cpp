@@ -9,7 +9,7 @@
 #include <iterator>
 #include <optional>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
 #include "demos/program/output_check.h"

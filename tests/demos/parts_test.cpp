@@ -1,7 +1,7 @@
 // Compounds and meshes in the program: picking through any part, drawing each part from its own row.
 #include <catch2/catch.hpp>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
 

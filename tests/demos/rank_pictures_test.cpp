@@ -6,7 +6,7 @@
 
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/in_process.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
 #include "demos/film/rank_parts.h"

@@ -50,7 +50,7 @@ def declarations(text):
         scope = re.match(r"\s*(?:template\s*<[^{;]*>\s*)?(namespace|struct|class|union)\b\s*(\[\[.*?\]\]\s*)?([\w:]*)[^(=]*$", statement)
         label = re.fullmatch(r"\s*(public|private|protected)\s*", statement)
         if c == ":" and label:
-            hidden[-1] = label.group(1) == "private"
+            hidden[-1] = hidden[-2] or label.group(1) == "private"
             statement = ""
         elif parentheses == 0 and c == "{" and scope:
             name = scope.group(3)

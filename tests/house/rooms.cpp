@@ -41,6 +41,14 @@ const std::vector<Room> rooms = {
     {"compute/scene_file/import/", {"compute/", "host/files/"}},
     // And checkpoints are files: this is the only one that writes any.
     {"compute/scene_file/checkpoint_file.cpp", {"compute/", "host/files/"}},
+    // Within compute, what a step is made of: each folder knows those above it in this list.
+    {"compute/parallel/", {"compute/parallel/", "compute/timeline.h"}},
+    {"compute/tables/",
+     {"compute/tables/", "compute/parallel/", "compute/scene.h", "compute/settings.h", "shaders/physics/", "shaders/stages/"}},
+    {"compute/plan/",
+     {"compute/plan/", "compute/tables/", "compute/parallel/", "compute/runner.h", "compute/timeline.h", "shaders/physics/"}},
+    {"compute/compile/",
+     {"compute/compile/", "compute/tables/", "compute/scene/", "compute/scene.h", "compute/settings.h", "shaders/physics/"}},
     {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},
     {"demos/", {"demos/", "compute/", "host/", "shaders/physics/"}},
     {"tests/", {"tests/", "demos/", "compute/", "host/", "shaders/"}},
@@ -132,6 +140,8 @@ TEST_CASE("house: the rules themselves tell right from wrong", "[house]") {
     CHECK(verdict("compute/device/device_runner.cpp", "\"host/vulkan/buffer.h\""));
     CHECK(verdict("demos/main.cpp", "\"host/canvas/canvas.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "\"host/vulkan/buffer.h\""));
+    CHECK_FALSE(verdict("compute/tables/state.cpp", "\"compute/compile/scene_compiler.h\""));
+    CHECK_FALSE(verdict("compute/plan/plan.cpp", "\"compute/cpu/stages.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "\"world.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "<vulkan/vulkan.h>"));
     CHECK_FALSE(verdict("host/canvas.cpp", "\"compute/world.h\""));

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compute/step/plan.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
+#include "compute/plan/plan.h"
 #include "tests/oracle/joint_judge.h"
 #include "tests/oracle/random_joints.h"
 

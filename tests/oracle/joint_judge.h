@@ -9,7 +9,7 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "tests/oracle/dense_joints.h"
 
 namespace scree::oracle {

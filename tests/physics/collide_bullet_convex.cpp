@@ -14,7 +14,7 @@
 #include <random>
 
 #include "compute/scene/mesh.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_triangle.h"
 
 using namespace scree;

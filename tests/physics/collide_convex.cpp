@@ -7,7 +7,7 @@
 #include <random>
 
 #include "compute/scene/hull.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_convex.h"
 
 using namespace scree;

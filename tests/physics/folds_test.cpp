@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_triangle.h"
 
 using namespace scree;

@@ -7,7 +7,7 @@
 
 #include "compute/scene.h"
 #include "compute/scene/hull.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/separating_axis.h"
 
 using namespace scree;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "compute/device/device_runner.h"
+#include "compute/plan/stage_fusion.h"
 #include "compute/scene.h"
-#include "compute/step/stage_fusion.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"

@@ -1,9 +1,9 @@
 // User actions in lockstep: equal bits on device and CPU.
 #include <catch2/catch.hpp>
 
+#include "compute/compile/state_editor.h"
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/state_editor.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"

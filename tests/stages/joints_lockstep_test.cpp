@@ -3,9 +3,9 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
+#include "compute/plan/stage_fusion.h"
 #include "compute/scene.h"
-#include "compute/step/stage_fusion.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "shaders/physics/solve/joint_block.h"

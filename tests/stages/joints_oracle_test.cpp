@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "compute/device/device_runner.h"
-#include "compute/step/plan.h"
+#include "compute/plan/plan.h"
 #include "host/vulkan/device.h"
 #include "tests/oracle/joint_judge.h"
 #include "tests/oracle/random_joints.h"

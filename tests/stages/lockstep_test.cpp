@@ -9,8 +9,8 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/state.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "shaders/physics/extra/sweep.h"
 #include "tests/stages/watched_device.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "compute/compile/state_editor.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/state_editor.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"

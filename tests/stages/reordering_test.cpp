@@ -6,8 +6,8 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/memory_order.h"
-#include "compute/step/state.h"
+#include "compute/tables/memory_order.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "host/vulkan/device.h"

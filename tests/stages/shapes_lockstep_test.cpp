@@ -4,7 +4,7 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/memory_traffic.h"
+#include "compute/plan/memory_traffic.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "tests/stages/watched_device.h"

@@ -10,7 +10,7 @@
 #include "compute/device/make_device_runner.h"
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/in_process.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/stages/watched_device.h"

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "compute/compile/scene_compiler.h"
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
-#include "compute/step/scene_compiler.h"
 #include "compute/world.h"
 #include "shaders/physics/extra/sleep.h"
 #include "tests/stages/watched_device.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "compute/step/table_layout.h"
+#include "compute/tables/table_layout.h"
 
 using namespace scree;
 

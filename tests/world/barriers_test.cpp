@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "compute/step/plan.h"
-#include "compute/step/stage_fusion.h"
-#include "compute/step/table_layout.h"
+#include "compute/plan/plan.h"
+#include "compute/plan/stage_fusion.h"
+#include "compute/tables/table_layout.h"
 
 using namespace scree;
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

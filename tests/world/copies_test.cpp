@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"

@@ -7,7 +7,7 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "compute/cpu/reference_runner.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
 
 namespace scree::tests {
 

@@ -12,7 +12,7 @@
 #include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/cpu/simd/simd_stages.h"
-#include "compute/step/lockstep_result.h"
+#include "compute/plan/lockstep_result.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
 #include "tests/world/feet.h"
@@ -139,7 +139,7 @@ void compare_unwatched(const Scene& scene, int threads, int lanes, const Look& l
 // Of one run of contacts.
 std::ptrdiff_t unloaded_groups(const State& state, int lanes) {
     const std::size_t contacts = state.counted().solver_contacts, width = static_cast<std::size_t>(lanes);
-    return std::ranges::count(std::span(state.unloaded_groups).first((contacts + width - 1) / width), 1);
+    return std::ranges::count(std::span(state.scratch.unloaded_groups).first((contacts + width - 1) / width), 1);
 }
 
 // Bodies on a plane in a square with gaps of a centimetre, and one that strikes them half a second later.

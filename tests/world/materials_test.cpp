@@ -9,7 +9,7 @@
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/in_process.h"
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
 #include "tests/world/late_restitution.h"

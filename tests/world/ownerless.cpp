@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/vehicle_presets.h"
 #include "compute/world/state_bytes.h"
 #include "tests/world/sleepers.h"

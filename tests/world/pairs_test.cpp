@@ -6,7 +6,7 @@
 #include <span>
 
 #include "compute/cpu/reference_runner.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/collide/grid.h"
 #include "tests/oracle/brute_force_pairs.h"
 #include "tests/world/heaps.h"
@@ -104,7 +104,7 @@ TEST_CASE("rows that are near each other, kept from step to step, give the pairs
         };
         state.fixed().redo = 0;
         for (bool done = false; !done; state.fixed().redo = 1) {
-            if (anew) state.near_rows = {};
+            if (anew) state.scratch.near_rows = {};
             done = runner.step(look);
             if (!done) state.grow();
         }
@@ -130,8 +130,8 @@ TEST_CASE("rows that are near each other, kept from step to step, give the pairs
                                              expected = pairs_of(anew, anew_runner, true);
             REQUIRE(found.size() == expected.size());
             REQUIRE(std::ranges::equal(std::as_bytes(std::span(found)), std::as_bytes(std::span(expected))));
-            REQUIRE_FALSE(anew.near_rows.is_listed);
-            listed += kept.near_rows.is_listed;
+            REQUIRE_FALSE(anew.scratch.near_rows.is_listed);
+            listed += kept.scratch.near_rows.is_listed;
         }
     }
     REQUIRE(listed > 60);

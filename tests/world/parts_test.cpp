@@ -6,7 +6,7 @@
 #include "compute/scene/compound.h"
 #include "compute/scene/mesh.h"
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 
 using namespace scree;

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "compute/cpu/reference_runner.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 using namespace scree;
 

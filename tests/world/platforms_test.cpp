@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 
 using namespace scree;

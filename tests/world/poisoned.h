@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "compute/step/state.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/state.h"
+#include "compute/tables/table_ranges.h"
 
 namespace scree::tests {
 

@@ -9,7 +9,7 @@
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/distributed_runner.h"
 #include "compute/distributed/in_process.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 #include "tests/world/poisoned.h"

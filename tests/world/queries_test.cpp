@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"

@@ -11,7 +11,7 @@
 #include "compute/checkpoint.h"
 #include "compute/distributed/in_process.h"
 #include "compute/scene_file/scene_json.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 
 namespace scree::tests {
 

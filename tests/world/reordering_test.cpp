@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "compute/step/memory_order.h"
-#include "compute/step/state.h"
+#include "compute/tables/memory_order.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "tests/world/heaps.h"

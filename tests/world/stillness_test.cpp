@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compute/cpu/reference_runner.h"
-#include "compute/step/table_ranges.h"
+#include "compute/tables/table_ranges.h"
 #include "compute/vehicle_presets.h"
 #include "tests/world/museum.h"
 #include "tests/world/random_program.h"

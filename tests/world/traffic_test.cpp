@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "compute/step/memory_traffic.h"
-#include "compute/step/plan.h"
+#include "compute/plan/memory_traffic.h"
+#include "compute/plan/plan.h"
 #include "compute/world.h"
 
 namespace scree {

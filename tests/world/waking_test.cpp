@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "compute/cpu/reference_runner.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "shaders/physics/extra/sleep.h"
 #include "tests/world/heaps.h"
 #include "tests/world/sleepers.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "compute/step/block_shape.h"
+#include "compute/tables/block_shape.h"
 
 namespace scree::reference {
 

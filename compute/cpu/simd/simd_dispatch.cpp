@@ -5,8 +5,8 @@
 
 #include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
-#include "compute/step/state.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
+#include "compute/tables/state.h"
 
 namespace scree::reference {
 
@@ -35,7 +35,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.contact_pairs = state.contact_pairs.data();
     tables.contact_slots = state.contact_slots.data();
     tables.pairs = words(state.pairs);
-    tables.manifolds = words(state.pair_manifolds);
+    tables.manifolds = words(state.scratch.pair_manifolds);
     tables.point_counts = words(state.point_counts);
     tables.contacts = words(state.contacts);
     tables.constraints = words(state.constraints);
@@ -48,9 +48,9 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.impacts = state.bounces() ? words(state.impacts) : nullptr;
     tables.slots = words(state.slots);
     tables.impact_debts = state.impact_debts.data();
-    tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
-    tables.unloaded = state.unloaded_groups.data();
-    tables.body_groups = state.lane_bodies.empty() ? nullptr : state.lane_bodies.front().words;
+    tables.groups = state.scratch.lane_contacts.empty() ? nullptr : state.scratch.lane_contacts.front().words;
+    tables.unloaded = state.scratch.unloaded_groups.data();
+    tables.body_groups = state.scratch.lane_bodies.empty() ? nullptr : state.scratch.lane_bodies.front().words;
     tables.prefetches = state.counted().solver_contacts > most_cached_contacts;
     tables.watched = state.is_watched;
     const SceneFeatures has = state.features();

@@ -8,7 +8,7 @@
 namespace scree::reference {
 
 constexpr std::size_t lanes_of_joints = 8;
-constexpr std::size_t most_wide_joints = 128;  // of a block: compute/step/joint_blocks.h
+constexpr std::size_t most_wide_joints = 128;  // of a block: compute/compile/joint_blocks.h
 using JointLanes = float[lanes_of_joints];
 
 // Entries of the matrix between the axes of two joints of a block, or of one: a column per axis of the earlier one.

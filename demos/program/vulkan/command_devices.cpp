@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compute/device/arithmetic_check.h"
-#include "compute/step/threads.h"
+#include "compute/parallel/threads.h"
 #include "demos/program/commands.h"
 #include "demos/program/table.h"
 #include "host/processor.h"

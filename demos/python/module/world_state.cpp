@@ -5,7 +5,7 @@
 #include <cstring>
 #include <span>
 
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "demos/python/module/world_object.h"
 
 namespace scree::python {

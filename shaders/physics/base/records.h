@@ -371,7 +371,7 @@ CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
 CONSTANT uint LIMIT_LOWER = 4u;   // the lower limit is active
 CONSTANT uint LIMIT_UPPER = 8u;
 
-// The joints of a block are contiguous, in elimination order (compute/step/joint_blocks.h).
+// The joints of a block are contiguous, in elimination order (compute/compile/joint_blocks.h).
 struct Joint {
     uint a, b;                        // bodies; NONE: the world
     uint block_body_a, block_body_b;  // their BlockBody; NONE: not dynamic

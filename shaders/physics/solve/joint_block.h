@@ -1,4 +1,4 @@
-// Direct solver for a block of joints (compute/step/joint_blocks.h): one sparse system of linear equations.
+// Direct solver for a block of joints (compute/compile/joint_blocks.h): one sparse system of linear equations.
 //
 // (J M^-1 J^T + C) dl = -(J v + bias), without the rows at their bounds. The matrix is symmetric positive definite, and
 // two joints have an entry in it only if they share a body. It is factored as L D L^T in the order of the block's

@@ -1,5 +1,5 @@
 // Fused stages for small worlds: one workgroup runs several stages in turn, with a barrier between them.
-// compute/step/stage_fusion.h decides when.
+// compute/plan/stage_fusion.h decides when.
 //
 // On a software device the workgroup is one subgroup, a vector of the processor: lavapipe makes a coroutine of every
 // vector that meets a barrier() and keeps its variables in memory, a quarter slower.

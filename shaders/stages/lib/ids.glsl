@@ -1,5 +1,5 @@
 // Ids, not rows, decide which body of a pair is A and the order of sums, so the host may reorder rows in memory
-// (compute/step/memory_order.h) without changing a bit.
+// (compute/tables/memory_order.h) without changing a bit.
 #ifndef SCREE_STAGES_IDS_GLSL
 #define SCREE_STAGES_IDS_GLSL
 

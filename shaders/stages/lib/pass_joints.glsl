@@ -7,7 +7,7 @@
 // are lanes of a vector: there an array of a thread's own costs least.
 //
 // lavapipe silently ends a shader's loops after 65,535 rounds in all: rounds of a block that would exceed it go to
-// further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here takes). Loops are not
+// further dispatches (compute/plan/stage_fusion.h, which knows how many rounds each loop here takes). Loops are not
 // unrolled in the source: drivers took minutes and gigabytes to compile that.
 #ifndef SCREE_STAGES_PASS_JOINTS_GLSL
 #define SCREE_STAGES_PASS_JOINTS_GLSL
@@ -565,7 +565,7 @@ bool look_at_bounds(uint j, bool settling) {
 }
 
 // push.pass: bit 0 in the last substep; from bit 8 the first round of this dispatch, from bit 16 the number of its
-// rounds (dispatches_of() in compute/step/stage_fusion.cpp).
+// rounds (dispatches_of() in compute/plan/stage_fusion.cpp).
 uint first_round() {
 #ifdef SCREE_SMALL_BLOCKS
     return 0u;

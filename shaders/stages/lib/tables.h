@@ -4,7 +4,7 @@
 // Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of quads (16 bytes),
 // because devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset is where each begins,
 // and shaders/stages/lib/words.glsl and quads.glsl access them. On the host every table is a vector
-// (compute/step/state.h).
+// (compute/tables/state.h).
 //
 // *_before are the contacts of the last step: their buffers and those without the suffix are swapped after every step.
 #ifndef SCREE_STAGES_TABLES_H
@@ -103,6 +103,25 @@
 #define SCREE_SHARED_BUFFERS(X)            \
     X(26, words, WordsTable, uint, shared) \
     X(27, quads, QuadsTable, uvec4, shared)
+
+// ---- lasting tables: what of a row or contact goes along to later steps, other rows, ranks, copies and files, in the order of
+// checkpoints. Everything that moves them is a loop over these lists (compute/tables/lasting.h).
+//
+// Of rows: table, and how it travels between ranks. All ranks have those alike, but for ranks that have a share of the world; the
+// owner of a body tells those owned when the body goes to another rank or the world is gathered; those of ghosts, also at the
+// start of each step, to ranks that have the body as a ghost.
+#define SCREE_LASTING_OF_ROWS(X) \
+    X(properties, alike)         \
+    X(poses, ghosts)             \
+    X(velocities, ghosts)        \
+    X(sleep_states, ghosts)      \
+    X(strains, owned)            \
+    X(masses, ghosts)
+// Of contacts: table; NAME_before is that of the last step.
+#define SCREE_LASTING_OF_CONTACTS(X) \
+    X(contacts)                      \
+    X(impulses)                      \
+    X(impacts)
 
 // ---- views: table, name of its earlier content
 #define SCREE_VIEWS(X)          \

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "compute/device/record_groups.h"
-#include "compute/step/state.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
 #include "host/canvas/canvas.h"

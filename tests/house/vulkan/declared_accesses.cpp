@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "compute/step/plan.h"
-#include "compute/step/stage_fusion.h"
-#include "compute/step/table_layout.h"
+#include "compute/plan/plan.h"
+#include "compute/plan/stage_fusion.h"
+#include "compute/tables/table_layout.h"
 #include "shaders/embedded.h"
 #include "shaders/stages/lib/record_layouts.h"
 #include "tests/house/vulkan/spirv_access.h"

@@ -1,0 +1,184 @@
+// Finding runs of stages that one workgroup can do.
+#include "compute/plan/stage_fusion.h"
+
+#include <algorithm>
+#include <string>
+
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/joint_block.h"
+
+namespace scree {
+
+namespace {
+
+// A dispatch costs lavapipe 7 us, but a fused stage runs on one core: a step of 155 boxes with 238 contacts takes 2.0
+// ms fused and 2.3 ms unfused, one with 552 contacts 3.7 and 4.0, on two cores that were also busy otherwise.
+constexpr std::uint32_t most_contacts = 320;
+constexpr std::uint32_t most_items = 2048;
+
+bool is_small(const physics::Parameters& p) {
+    return p.contact_capacity <= most_contacts && std::max(p.pair_capacity, p.bodies) <= most_items &&
+           p.buckets + p.copies <= most_items + 1;
+}
+
+// lavapipe silently ends a shader's loops after 65,535 rounds in all, and one vector of its threads runs through
+// everything here.
+constexpr std::uint32_t most_rounds = 60000;
+// Loop rounds of both passes over a contact: eight sweeps over four points each, and a few loops over the points. 160
+// were measured.
+constexpr std::uint32_t contact_rounds = 200;
+
+// Substeps per dispatch. Bodies gather their slots one by one, twice a substep.
+std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threads) {
+    const std::uint32_t rounds = (p.contact_capacity / threads + 1) * contact_rounds + 4 * p.contact_capacity + 2 * p.bodies;
+    return std::max(1u, most_rounds / rounds);
+}
+
+// Loop rounds left for a joint block (shaders/stages/lib/pass_joints.glsl) if its bodies have some thousand contacts.
+constexpr std::uint32_t most_joint_rounds = 50000;
+// Rounds of a loop over the axes of a joint, with that of the enclosing loop over joints.
+constexpr std::uint32_t axis_rounds = 7;
+// Rounds of the loops over a joint's own six rows in its elimination: loading, factoring and storing them.
+constexpr std::uint32_t own_rounds = 190;
+
+using Names = std::vector<std::string>;
+
+struct Run {
+    std::string name;
+    Names parts;
+};
+
+Names scan(const std::string& what) {
+    return {"scan_" + what + "_sums", "scan_" + what + "_spine", "scan_" + what + "_offsets"};
+}
+
+Names joined(Names names, const Names& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+}
+
+// Longer runs precede those that they contain.
+const std::vector<Run>& runs() {
+    static const std::vector<Run> all = {
+        {"scan_cells", scan("cells")},
+        {"scan_pairs", scan("pairs")},
+        {"bin_pairs", joined(joined({"count_pair_types"}, scan("pair_types")), {"fill_pair_types"})},
+        {"scan_contacts", scan("contacts")},
+        {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "sort_slots"})},
+        {"scan_slots", scan("slots")},
+        {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
+    };
+    return all;
+}
+
+bool begins_at(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    return first + run.parts.size() <= plan.size() &&
+           std::equal(run.parts.begin(), run.parts.end(), plan.begin() + static_cast<std::ptrdiff_t>(first),
+                      [](const std::string& name, const Stage& stage) { return name == stage.name; });
+}
+
+// Number of consecutive repetitions of a run.
+std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    std::uint32_t times = 0;
+    while (begins_at(run, plan, first + times * run.parts.size())) ++times;
+    return times;
+}
+
+// push.pass of shaders/stages/substeps.comp: `part` of `whole` substeps, after `before`.
+std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
+    return before | part << 8 | whole << 16;
+}
+
+Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    Stage all;
+    all.name = run.name;
+    for (std::size_t k = 0; k < run.parts.size(); ++k) {
+        const Stage& part = plan[first + k];
+        for (const Access& access : part.reads) all.reads.push_back({access.table});
+        for (const Access& access : part.writes) all.writes.push_back({access.table});
+        all.tested_features |= part.tested_features;
+        all.features |= part.features;
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Parameters& parameters, std::uint32_t threads) {
+    if (!is_small(parameters)) return plan;
+    std::vector<Stage> stages;
+    for (std::size_t i = 0; i < plan.size();) {
+        const auto run = std::find_if(runs().begin(), runs().end(), [&](const Run& each) { return begins_at(each, plan, i); });
+        if (run == runs().end()) {
+            stages.push_back(plan[i++]);
+            continue;
+        }
+        const std::uint32_t times = times_at(*run, plan, i), at_once = substeps_at_once(parameters, threads);
+        for (std::uint32_t done = 0; done < times; done += at_once) {
+            stages.push_back(in_one(*run, plan, i));
+            stages.back().pass = pass_of(done, std::min(at_once, times - done), times);
+        }
+        i += times * run->parts.size();
+    }
+    set_barriers(stages);
+    return stages;
+}
+
+JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks,
+                                 std::uint32_t subgroup) {
+    constexpr std::uint32_t most_threads = 128, few_threads = 32;
+    JointDispatches found;
+    const std::uint32_t threads = subgroup > 0 ? subgroup : most_threads;
+    std::uint32_t most = 0;  // loop rounds of a round of a block
+    std::uint32_t once = 0;
+    for (const physics::JointBlock& block : blocks) {
+        if (block.joints <= physics::SMALL_BLOCK_JOINTS) {
+            found.threads_a_small_block = subgroup > 0 ? 1 : few_threads;
+            continue;
+        }
+        found.threads_a_block = threads;
+        const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
+        std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
+        for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
+            const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
+            each += 4 * axis_rounds;                                // pushes to both bodies, twice
+            each += own_rounds;                                     // its own rows
+            each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
+            each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
+            each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
+        }
+        each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
+        most = std::max(most, each);
+        once = std::max(once, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints));
+    }
+    found.rounds_at_once =
+        std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u, physics::JOINT_ROUNDS);
+    return found;
+}
+
+std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& joints) {
+    if (stage.domain != DispatchDomain::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints"))
+        return {stage};
+    std::vector<Stage> dispatches;
+    if (joints.threads_a_small_block > 0 || joints.threads_a_block == 0) {
+        Stage& small = dispatches.emplace_back(stage);
+        const bool singly = joints.threads_a_small_block <= 1;
+        small.way = singly ? ".singly" : ".small";
+        small.threads_an_item = singly ? 0 : joints.threads_a_small_block;
+        small.barrier_after = joints.threads_a_block == 0 && stage.barrier_after;
+    }
+    for (std::uint32_t done = 0; joints.threads_a_block > 0 && done < physics::JOINT_ROUNDS; done += joints.rounds_at_once) {
+        dispatches.push_back(stage);
+        dispatches.back().threads_an_item = joints.threads_a_block;
+        dispatches.back().pass |= done << 8 | std::min(joints.rounds_at_once, physics::JOINT_ROUNDS - done) << 16;
+        dispatches.back().barrier_after = done + joints.rounds_at_once < physics::JOINT_ROUNDS || stage.barrier_after;
+    }
+    return dispatches;
+}
+
+std::vector<std::string> parts_of(const std::string& name) {
+    const auto run = std::find_if(runs().begin(), runs().end(), [&](const Run& each) { return each.name == name; });
+    return run == runs().end() ? std::vector{name} : run->parts;
+}
+
+}  // namespace scree
