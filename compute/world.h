@@ -163,11 +163,13 @@ constexpr std::size_t most_kept_states = 10;
 // number of bodies, parts, joints and vehicles stays.
 using VaryCopy = std::function<void(std::size_t copy, Scene& scene)>;
 
+// Simulates a scene, on the CPU or on a device.
+//
 // Threads: a world belongs to one thread at a time. Its functions, const ones too (they read from the runner, and keep what
 // they found), are called by one thread after another, which may be others; worlds of their own run side by side, also on one
 // host::Device. What a function returns by value may be used by any thread, and references until the next call of the world.
 // Within a call the runner's threads work (Runner::threads); functions that the user passes run on the calling thread, but for
-// Timeline and the messages of a device, which say for themselves. compute/README.md, "Threads".
+// Timeline and the messages of a device, which say for themselves. demos/docs/guide/threads.md.
 class World {
 public:
     // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range. `runner`:

@@ -20,7 +20,7 @@ class Device;
 enum class Denormals {
     kept,     // IEEE 754
     flushed,  // operands and results are zero instead
-    mixed,    // some are; no law depends on it (shaders/README.md, "Equal bits")
+    mixed,    // some are; no law depends on it (demos/docs/inside/equal-bits.md)
 };
 
 struct ArithmeticReport {

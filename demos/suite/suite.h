@@ -40,6 +40,6 @@ std::string table_of(const std::vector<Outcome>& outcomes);
 std::string json_of(const std::vector<Outcome>& outcomes, const std::string& backend, const std::string& device);
 // The claims of the demos and how they are measured, without running them.
 std::string promises_of(const std::vector<const Demo*>& demos);
-std::string promises_as_markdown(const std::vector<const Demo*>& demos);  // for tests/README.md
+std::string promises_as_markdown(const std::vector<const Demo*>& demos);  // for demos/docs/evidence/promises.md
 
 }  // namespace scree::demos

@@ -64,7 +64,7 @@ std::string validation_table(const std::vector<Validation>& all, bool samples);
 std::string validation_json(const std::vector<Validation>& all, const std::string& backend, const std::string& device);
 // One HTML page with a plot (SVG) of each experiment.
 std::string validation_page(const std::vector<Validation>& all, const std::string& heading);
-// Laws, sources and allowed errors of experiments, as text and as a Markdown table, for tests/README.md.
+// Laws, sources and allowed errors of experiments, as text and as a Markdown table, for demos/docs/evidence/experiments.md.
 std::string experiments_of(const std::vector<Experiment>& experiments);
 std::string experiments_as_markdown(const std::vector<Experiment>& experiments);
 

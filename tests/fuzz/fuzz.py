@@ -5,7 +5,7 @@
 #
 # Seeds are demos of a few bodies, the files of tests/imports, and what else the corpus beside this file has. What must hold of every
 # mutant: no signal, no exit status but 0, 1 and 2, an error that names the file, an end within 10 s of the processor, memory within 200 times the file
-# and 200 MB; checkpoints are damaged, not forged (SECURITY in tests/README.md); of what is accepted: no body that is not finite and not told, the same hash and the same bytes from a checkpoint in the
+# and 200 MB; checkpoints are damaged, not forged (.github/SECURITY.md); of what is accepted: no body that is not finite and not told, the same hash and the same bytes from a checkpoint in the
 # middle, and on the CPU while it flushes denormals; with --devices also on the Vulkan device. Findings are kept with the command
 # that shows them; the exit status is 1 if there are any.
 

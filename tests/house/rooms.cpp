@@ -1,4 +1,4 @@
-// Allowed includes and forbidden words of each room; see the table of rooms in README.md.
+// Allowed includes and forbidden words of each room; see the table of rooms in demos/docs/inside/architecture.md.
 #include <catch2/catch.hpp>
 #include <regex>
 #include <sstream>

@@ -337,7 +337,7 @@ TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     for (const json& advice : fall["advice"]) REQUIRE_FALSE(says(advice["finding"].get<std::string>(), "penetration"));
 }
 
-// A gas of capsules at 50 m/s, a known limit (README.md), gains energy where capsules collide off centre.
+// A gas of capsules at 50 m/s, a known limit (demos/docs/limits.md), gains energy where capsules collide off centre.
 TEST_CASE("program: what bears too much is named, with the substeps that hold it", "[program]") {
     const Place place;
     const auto column = [&](const char* name, int boxes, double half, double ratio) {

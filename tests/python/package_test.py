@@ -1,4 +1,4 @@
-# The package itself: stubs, types, the README's example, and the example scripts' first steps.
+# The package itself: stubs, types, the examples of README and book, and the example scripts' first steps.
 import os
 import pathlib
 import re
@@ -44,12 +44,15 @@ class Package(unittest.TestCase):
                 if not member.startswith("_") and (inspect.isfunction(what) or isinstance(what, property)):
                     self.assertTrue(inspect.getdoc(getattr(one, member)), f"{name}.{member}")
 
-    def test_the_readmes_example_runs(self):
-        text = (SOURCE / "README.md").read_text(encoding="utf-8")
-        example = re.search(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertIsNotNone(example)
-        code, output = run(sys.executable, "-c", example.group(1), cwd=tempfile.gettempdir())
-        self.assertEqual(code, 0, output)
+    def test_the_examples_of_readme_and_book_run(self):
+        pages = [SOURCE / "README.md", *sorted((SOURCE / "demos/docs").rglob("*.md"))]
+        examples = [(page, block) for page in pages for block in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)]
+        self.assertGreaterEqual(len(examples), 2)
+        self.assertEqual(examples[0][0].name, "README.md")
+        for page, block in examples:
+            with self.subTest(page=page.name):
+                code, output = run(sys.executable, "-c", block, cwd=tempfile.gettempdir())
+                self.assertEqual(code, 0, output)
 
     def test_the_version_is_the_projects(self):
         self.assertIn(f"VERSION {scree.__version__} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
