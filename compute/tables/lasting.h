@@ -10,7 +10,7 @@
 
 namespace scree {
 
-// What of a row goes along to other rows, ranks, copies and files.
+// State of a row that moves to other rows, ranks, copies and checkpoints.
 #define SCREE_NAME(name, travel) Table::name,
 inline constexpr std::array row_tables{SCREE_LASTING_OF_ROWS(SCREE_NAME)};
 #undef SCREE_NAME

@@ -104,12 +104,13 @@
     X(26, words, WordsTable, uint, shared) \
     X(27, quads, QuadsTable, uvec4, shared)
 
-// ---- lasting tables: what of a row or contact goes along to later steps, other rows, ranks, copies and files, in the order of
-// checkpoints. Everything that moves them is a loop over these lists (compute/tables/lasting.h).
+// ---- lasting tables: state of a row or contact that persists across steps. It moves with its body to other rows, ranks, copies and
+// checkpoints, in this order. All code that moves it loops over these lists (compute/tables/lasting.h).
 //
-// Of rows: table, and how it travels between ranks. All ranks have those alike, but for ranks that have a share of the world; the
-// owner of a body tells those owned when the body goes to another rank or the world is gathered; those of ghosts, also at the
-// start of each step, to ranks that have the body as a ghost.
+// Of rows: table, and how it travels between ranks.
+//   alike: equal on all ranks; sent only where the world is shared out.
+//   owned: sent by the owner when a body changes its owner or the world is gathered.
+//   ghosts: as owned, and sent at the start of each step to ranks that hold the body as a ghost.
 #define SCREE_LASTING_OF_ROWS(X) \
     X(properties, alike)         \
     X(poses, ghosts)             \
