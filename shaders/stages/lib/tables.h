@@ -104,8 +104,8 @@
     X(26, words, WordsTable, uint, shared) \
     X(27, quads, QuadsTable, uvec4, shared)
 
-// ---- lasting tables: state of a row or contact that persists across steps. It moves with its body to other rows, ranks, copies and
-// checkpoints, in this order. All code that moves it loops over these lists (compute/tables/lasting.h).
+// ---- lasting tables: state of a row or contact that persists across steps. It moves with its body to other rows, ranks,
+// copies and checkpoints, in this order. All code that moves it loops over these lists (compute/tables/lasting.h).
 //
 // Of rows: table, and how it travels between ranks.
 //   alike: equal on all ranks; sent only where the world is shared out.
