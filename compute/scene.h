@@ -15,7 +15,7 @@
 
 namespace scree {
 
-// Tyre friction, which depends on slip (shaders/physics/extra/tyre.h). Body::friction is that at the best slip.
+// Tyre friction, which depends on slip (shaders/physics/contact/tyre.h). Body::friction is that at the best slip.
 struct Tyre {
     float best_slip = 0.1f;  // slip of greatest friction, 0.01 to 0.9; sideways the tangent of the slip angle
     float sliding = 0.75f;   // friction when sliding, relative to the greatest, 0 to 1
@@ -37,7 +37,7 @@ enum class Cutting {
 };
 struct Cut;  // compute/scene/fracture.h
 // Fracture of a dynamic body. It breaks at the end of the step in which one contact exceeds the threshold
-// (shaders/physics/extra/fracture.h says exactly what counts, and what happens to the impulse); its fragments replace
+// (shaders/physics/fracture/fracture.h says exactly what counts, and what happens to the impulse); its fragments replace
 // it. Exactly one of the two thresholds is positive.
 struct Fracture {
     float impulse = 0;   // N s, normal impulse of one contact in this step and the last; a static load F: 2 F / rate

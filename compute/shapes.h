@@ -2,7 +2,7 @@
 //
 // Validation, scene files, their schema and messages follow from this list; the order of SimpleShape is that of the
 // shape ids of a step. To add a convex shape: its struct, its alternative in SimpleShape and its ShapeInfo here; id and
-// functions in shaders/physics/collide/shapes.h; host geometry in compute/scene/shape_geometry.cpp and ray_cast.cpp;
+// functions in shaders/physics/base/shapes.h; host geometry in compute/scene/shape_geometry.cpp and ray_cast.cpp;
 // normals in surface_normal.cpp; drawing in demos/film/drawing.cpp. The compiler or a test reports what is missing.
 #pragma once
 

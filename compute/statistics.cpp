@@ -13,10 +13,10 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/tables/memory_order.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/contact_constraint.h"
-#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/contact/contact_constraint.h"
+#include "shaders/physics/joint/joint_axis.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "shaders/physics/collide/body_scale.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/body_scale.h"
+#include "shaders/physics/body/compound.h"
 
 namespace scree {
 

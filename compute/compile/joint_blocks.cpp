@@ -8,7 +8,7 @@
 #include <set>
 
 #include "compute/tables/state.h"
-#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/joint/joint_axis.h"
 
 namespace scree {
 

@@ -7,7 +7,7 @@
 
 #include "compute/scene.h"
 #include "shaders/physics/base/records.h"
-#include "shaders/physics/solve/joint_turns.h"
+#include "shaders/physics/joint/joint_turns.h"
 
 namespace scree {
 

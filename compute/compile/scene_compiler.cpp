@@ -10,9 +10,9 @@
 #include "compute/compile/joint_blocks.h"
 #include "compute/scene/vehicle_records.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

@@ -25,7 +25,7 @@ void set_first_capacities(physics::Parameters& p, const Settings& settings, std:
 // The table of gravities, of copies of a scene.
 std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravities);
 
-// Half of a body's thinnest width (min_half_width in shaders/physics/collide/shapes.h), m.
+// Half of a body's thinnest width (min_half_width in shaders/physics/base/shapes.h), m.
 float least_half_width(const Shape& shape);
 
 // Whether a body or one of its parts has a collision filter.

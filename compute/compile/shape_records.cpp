@@ -11,11 +11,11 @@
 #include "compute/scene/hull_cells.h"
 #include "compute/scene/mesh.h"
 #include "compute/scene/shape_geometry.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/triangle.h"
-#include "shaders/physics/extra/tyre.h"
-#include "shaders/physics/solve/material.h"
+#include "shaders/physics/contact/material.h"
+#include "shaders/physics/contact/tyre.h"
 
 namespace scree {
 

@@ -7,9 +7,9 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/compile/scene_compiler.h"
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/solve/material.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/contact/material.h"
 
 namespace scree {
 

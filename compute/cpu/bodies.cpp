@@ -9,14 +9,14 @@
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/extra/grab_spring.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/driven.h"
-#include "shaders/physics/solve/impact_state.h"
-#include "shaders/physics/solve/mass_splitting.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/driven.h"
+#include "shaders/physics/body/grab_spring.h"
+#include "shaders/physics/body/mass_splitting.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/impact/impact_state.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

@@ -5,12 +5,12 @@
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/copies.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/body/sweep.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

@@ -9,7 +9,7 @@
 #include "compute/cpu/near_rows.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/collide/filter.h"
+#include "shaders/physics/body/filter.h"
 #include "shaders/physics/collide/grid.h"
 
 namespace scree::reference {

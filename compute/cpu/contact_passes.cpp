@@ -4,8 +4,8 @@
 #include "compute/cpu/contact_runs.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/passes.h"
-#include "shaders/physics/solve/contact_pass.h"
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/contact/contact_pass.h"
+#include "shaders/physics/contact/contact_preparation.h"
 
 namespace scree::reference {
 

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "compute/cpu/stages.h"
-#include "shaders/physics/collide/body_scale.h"
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/body/body_scale.h"
+#include "shaders/physics/contact/contact_preparation.h"
 
 namespace scree::reference {
 

@@ -1,7 +1,7 @@
 // Reference contact stages before the solver: contacts, and the warm start from the last step.
 #include "compute/cpu/contact_runs.h"
 #include "compute/cpu/stages.h"
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/contact/contact_preparation.h"
 
 namespace scree::reference {
 

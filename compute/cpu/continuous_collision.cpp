@@ -5,9 +5,9 @@
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/time_of_impact.h"
-#include "shaders/physics/solve/contact.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/contact/contact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 
 namespace scree::reference {
 

@@ -1,9 +1,9 @@
 // Reference stage of fields: wind, water, attractors.
-#include "shaders/physics/extra/fields.h"
+#include "shaders/physics/body/medium.h"
 
 #include "compute/cpu/stages.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

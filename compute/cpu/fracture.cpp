@@ -1,5 +1,5 @@
 // Reference stages of fracture.
-#include "shaders/physics/extra/fracture.h"
+#include "shaders/physics/fracture/fracture.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/copies.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "compute/compile/joint_blocks.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

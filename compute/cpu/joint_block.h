@@ -9,8 +9,8 @@
 
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/tables/state.h"
-#include "shaders/physics/solve/contact_solver.h"
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/contact/contact_solver.h"
+#include "shaders/physics/joint/joint_block.h"
 
 namespace scree::reference {
 

@@ -7,8 +7,8 @@
 #include "compute/cpu/joint_block.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

@@ -5,9 +5,9 @@
 
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
+#include "shaders/physics/body/motion.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/contact/persistence.h"
 
 namespace scree::reference {
 

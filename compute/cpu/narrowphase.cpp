@@ -20,7 +20,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/manifold.h"
 #include "shaders/physics/collide/rolling_contact.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/contact/persistence.h"
 
 namespace scree::reference {
 

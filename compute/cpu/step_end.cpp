@@ -7,10 +7,10 @@
 #include "compute/cpu/slot_sums.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/continuous/clamping.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

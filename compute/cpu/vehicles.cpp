@@ -3,9 +3,9 @@
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/vehicle.h"
-#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/joint/joint_axis.h"
+#include "shaders/physics/sleep/sleep.h"
+#include "shaders/physics/vehicle/vehicle.h"
 
 namespace scree::reference {
 

@@ -5,7 +5,7 @@
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "compute/tables/table_layout.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

@@ -7,9 +7,9 @@
 #include "compute/distributed/cell_set.h"
 #include "compute/distributed/packing.h"
 #include "compute/tables/lasting.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/motion.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/motion.h"
 
 namespace scree {
 

@@ -6,8 +6,8 @@
 #include "compute/distributed/packing.h"
 #include "compute/plan/stage_slices.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

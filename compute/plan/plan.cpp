@@ -5,7 +5,8 @@
 
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/continuous/clamping.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/joint/joint_block.h"
 
 namespace scree {
 

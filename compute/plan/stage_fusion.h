@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compute/plan/plan.h"
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/joint/joint_block.h"
 
 namespace scree {
 

@@ -5,7 +5,7 @@
 #include "compute/scene/hull.h"
 #include "compute/scene/mesh.h"
 #include "compute/scene/shape_geometry.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/ray.h"
 
 namespace scree {

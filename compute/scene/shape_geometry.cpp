@@ -11,7 +11,7 @@
 #include "compute/scene/convex_planes.h"
 #include "compute/scene/hull.h"
 #include "compute/scene/mesh.h"
-#include "shaders/physics/collide/shapes.h"
+#include "shaders/physics/base/shapes.h"
 
 namespace scree {
 

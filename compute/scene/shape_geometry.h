@@ -9,7 +9,7 @@
 
 namespace scree {
 
-// The size of a checked shape as in BodyProperties (SHAPE_* in shaders/physics/collide/shapes.h), m.
+// The size of a checked shape as in BodyProperties (SHAPE_* in shaders/physics/base/shapes.h), m.
 vec3 record_size(const SimpleShape& shape);
 
 // Support of a checked shape from its centre in a unit direction, m. Not for planes.

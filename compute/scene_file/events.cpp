@@ -29,7 +29,7 @@ std::size_t present_joint(const std::vector<TimedEvent>& events, std::size_t eve
     return joint - lower;
 }
 
-// The way of a kinematic body while it stops, as a part of its velocity, s (shaders/physics/solve/driven.h). It takes up a
+// The way of a kinematic body while it stops, as a part of its velocity, s (shaders/physics/body/driven.h). It takes up a
 // velocity with as much less way.
 float stopping_time(const World& world) {
     return (0.5f - 0.5f / static_cast<float>(world.settings().substeps)) / world.settings().rate;

@@ -5,7 +5,7 @@
 #include <map>
 #include <span>
 
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/joint/joint_block.h"
 
 namespace scree {
 

@@ -12,9 +12,9 @@
 #include "compute/tables/lasting.h"
 #include "compute/tables/table_layout.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/extra/tyre.h"
-#include "shaders/physics/solve/material.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/contact/material.h"
+#include "shaders/physics/contact/tyre.h"
 
 namespace scree {
 

@@ -20,7 +20,7 @@
 #include "compute/tables/shared_records.h"
 #include "compute/tables/table_vectors.h"
 #include "shaders/physics/base/copies.h"
-#include "shaders/physics/solve/contact_impulse.h"
+#include "shaders/physics/contact/contact_impulse.h"
 
 namespace scree {
 

@@ -9,7 +9,7 @@
 #include "compute/compile/state_editor.h"
 #include "compute/scene/fracture.h"
 #include "compute/world/world_impl.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 
 namespace scree {
 

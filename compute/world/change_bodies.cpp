@@ -11,8 +11,8 @@
 #include "compute/fields/check.h"
 #include "compute/scene/validator.h"
 #include "compute/world/world_impl.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

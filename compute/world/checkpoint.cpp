@@ -22,7 +22,7 @@
 #include "compute/world/scene_bytes.h"
 #include "compute/world/state_parts.h"
 #include "compute/world/world_impl.h"
-#include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/contact/tyre.h"
 
 namespace scree {
 

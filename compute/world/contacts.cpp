@@ -8,7 +8,7 @@
 #include "compute/world/sensors.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/collide/shapes.h"
+#include "shaders/physics/base/shapes.h"
 
 namespace scree {
 

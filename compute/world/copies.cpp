@@ -12,7 +12,7 @@
 #include "compute/statistics.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

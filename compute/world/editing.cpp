@@ -31,7 +31,7 @@ void check(const GripSpring& s) {
     demand(s.spin_damping >= 0 && s.spin_damping <= 100, "grip: spin_damping must be between 0 and 100 1/s");
 }
 
-// Soft constraint coefficients (Catto, Soft Constraints, GDC 2011); see shaders/physics/extra/grab_spring.h.
+// Soft constraint coefficients (Catto, Soft Constraints, GDC 2011); see shaders/physics/body/grab_spring.h.
 physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring, float h) {
     const float omega = 2 * std::numbers::pi_v<float> * spring.hertz;
     const float a1 = 2 * spring.damping_ratio + h * omega;

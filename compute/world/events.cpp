@@ -8,8 +8,8 @@
 
 #include "compute/world/sensors.h"
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compute/world/world_impl.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/collide/triangle.h"
 

@@ -14,7 +14,7 @@
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/distance.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/ray.h"

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "compute/scene/bounds_tree.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/filter.h"
 #include "shaders/physics/collide/distance.h"
-#include "shaders/physics/collide/filter.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 
 namespace scree {
 

@@ -14,7 +14,7 @@
 #include "compute/tables/memory_order.h"
 #include "compute/world/state_bytes.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/solve/material.h"
+#include "shaders/physics/contact/material.h"
 
 namespace scree {
 

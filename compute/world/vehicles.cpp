@@ -7,7 +7,7 @@
 
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

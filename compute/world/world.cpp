@@ -14,9 +14,9 @@
 #include "compute/statistics.h"
 #include "compute/tables/memory_order.h"
 #include "compute/world/world_impl.h"
+#include "shaders/physics/body/quarantine.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 

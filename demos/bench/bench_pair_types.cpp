@@ -23,7 +23,7 @@ constexpr int at_a_time =
 constexpr int halvings = 10;      // bisections of the distance at which a pair touches: to 1 mm
 constexpr float spacing = 4;      // m, between pairs
 constexpr float overlap = 0.01f;  // m, depth to which each pair is then overlapped
-constexpr float spin = 0.06f;     // rad/s, just above the limit of persistent manifolds (shaders/physics/solve/persistence.h)
+constexpr float spin = 0.06f;     // rad/s, just above the limit of persistent manifolds (shaders/physics/contact/persistence.h)
 
 struct Kind {
     const char* name;

@@ -11,7 +11,7 @@
 #include "demos/film/solid_meshes.h"
 #include "demos/program/exit_status.h"
 #include "host/device_error.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 
 namespace scree::demos {
 

@@ -22,7 +22,7 @@
 #include "host/canvas/overlay.h"
 #include "host/files/file.h"
 #include "host/pictures/frame_writer.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::demos {
 

@@ -11,7 +11,7 @@
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/tables/state.h"
-#include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/body/body_scale.h"
 
 namespace scree::demos {
 

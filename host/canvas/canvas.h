@@ -58,7 +58,7 @@ struct BodyTables {
     // Contacts of each body (a compressed row list), for ColorBy::contact_impulse and ColorBy::contacts.
     TableView slot_ends;     // uint, end of each body's slots, which is the begin of the next body's
     TableView slot_sides;    // uint, one per slot: 2 * contact + side (0 for body a, 1 for body b), or a joint with OF_JOINT
-    TableView sleep_states;  // uint (shaders/physics/extra/sleep.h), for ColorBy::rest and CanvasOptions::sleep
+    TableView sleep_states;  // uint (shaders/physics/sleep/sleep.h), for ColorBy::rest and CanvasOptions::sleep
     TableView bounds;        // Bounds, for CanvasOptions::boxes and cells
     TableView ids;           // uint, body id of each row, for ColorBy::body
     TableView joints;        // Joint, for CanvasOptions::joints

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/body/sweep.h"
 #include "shaders/queries/tables.glsl"
 
 Box both(Box a, Box b) {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/render/coloring.h"
 
 layout(local_size_x = 128) in;  // DETAIL_GROUP

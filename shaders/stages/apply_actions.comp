@@ -3,9 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/driven.h"
+#include "shaders/physics/body/driven.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/fields.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/medium.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 
 void main() {

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/contact/persistence.h"
 #include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 

@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 
 // Skips the atomic where the bits are set already: most bodies add nothing, and a contended atomic is slow.

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {

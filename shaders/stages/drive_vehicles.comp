@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/vehicle.h"
-#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/joint/joint_axis.h"
+#include "shaders/physics/sleep/sleep.h"
+#include "shaders/physics/vehicle/vehicle.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 

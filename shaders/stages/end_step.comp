@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/continuous/clamping.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/fracture.h"
+#include "shaders/physics/fracture/fracture.h"
 #include "shaders/stages/lib/copies.glsl"
 
 void main() {

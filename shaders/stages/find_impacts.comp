@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 #include "shaders/stages/lib/shape_data.glsl"
 
 void main() {

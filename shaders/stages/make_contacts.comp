@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/contact/contact_preparation.h"
 #include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/ids.glsl"
 

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/body/motion.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/solve/motion.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/contact/persistence.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {

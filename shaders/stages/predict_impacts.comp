@@ -5,8 +5,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/time_of_impact.h"
-#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/contact/contact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/shape_data.glsl"

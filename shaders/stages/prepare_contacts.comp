@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/contact/contact_preparation.h"
 #include "shaders/stages/lib/contact_blocks.glsl"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/contact/contact_solver.h"
 #include "shaders/stages/lib/stage.glsl"
 
 // after the declarations of the tables

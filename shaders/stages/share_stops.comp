@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/continuous/clamping.h"
 #include "shaders/stages/lib/stage.glsl"
 
 uint stops[2u * MAX_BLOCK_JOINTS];

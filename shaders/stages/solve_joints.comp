@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/contact/contact_solver.h"
 
 #define BIASED true
 #include "shaders/stages/lib/pass_joints.glsl"

@@ -4,7 +4,7 @@
 
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/impulses.glsl"

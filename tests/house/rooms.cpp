@@ -1,4 +1,5 @@
 // Allowed includes and forbidden words of each room; see the table of rooms in demos/docs/inside/architecture.md.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <regex>
 #include <sstream>
@@ -54,7 +55,28 @@ const std::vector<Room> rooms = {
     {"tests/", {"tests/", "demos/", "compute/", "host/", "shaders/"}},
 };
 
+// The subjects of physics: a folder knows those before it in this list, so that no two know each other.
+const std::vector<std::string> subjects = {"base",  "body",  "collide",    "constraint", "impact", "contact",
+                                           "joint", "sleep", "continuous", "fracture",   "vehicle"};
+const std::string physics = "shaders/physics/";
+
+std::size_t subject_of(const std::string& path) {
+    const std::string folder = path.substr(physics.size(), path.find('/', physics.size()) - physics.size());
+    return static_cast<std::size_t>(std::find(subjects.begin(), subjects.end(), folder) - subjects.begin());
+}
+std::string upwards(const SourceFile& file, const Include& include) {
+    if (!file.in(physics) || !begins(include.path, physics)) return "";
+    const std::size_t from = subject_of(file.path), to = subject_of(include.path);
+    if (from == subjects.size()) return "no subject of physics: name its folder in tests/house/rooms.cpp";
+    if (to <= from) return "";
+    return "physics is by subject, and " + subjects[from] + " comes before " + include.path.substr(physics.size()) +
+           ": a file includes its own folder and those before it (base, body, collide, constraint, impact, contact, joint, "
+           "sleep, "
+           "continuous, fracture, vehicle)";
+}
+
 std::string wrong_way(const SourceFile& file, const Include& include) {
+    if (const std::string wrong = upwards(file, include); !wrong.empty()) return wrong;
     if (file.in("tests/consumer/")) return include.quoted ? "the installed headers are included with <>" : "";
     const bool outside =
         !include.quoted && (include.path.find("vulkan") != std::string::npos || include.path.find("GLFW") != std::string::npos);
@@ -145,7 +167,11 @@ TEST_CASE("house: the rules themselves tell right from wrong", "[house]") {
     CHECK_FALSE(verdict("compute/world/world.cpp", "\"world.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "<vulkan/vulkan.h>"));
     CHECK_FALSE(verdict("host/canvas.cpp", "\"compute/world.h\""));
-    CHECK_FALSE(verdict("shaders/physics/solve/contact.h", "\"compute/scene.h\""));
+    CHECK_FALSE(verdict("shaders/physics/contact/contact.h", "\"compute/scene.h\""));
+    CHECK(verdict("shaders/physics/contact/contact_solver.h", "\"shaders/physics/impact/restitution.h\""));
+    CHECK_FALSE(verdict("shaders/physics/impact/restitution.h", "\"shaders/physics/contact/contact_solver.h\""));
+    CHECK_FALSE(verdict("shaders/physics/collide/grid.h", "\"shaders/physics/sleep/sleep.h\""));
+    CHECK_FALSE(verdict("shaders/physics/extra/wind.h", "\"shaders/physics/base/records.h\""));
     CHECK_FALSE(verdict("demos/main.cpp", "\"tests/house/tree.h\""));
     CHECK(scree::house::without_comments("a /* b\n */ c // d") == "a     \n    c     ");
     CHECK(scree::house::without_comments_and_strings("a \"//\" '\"' b") == "a \"  \" ' ' b");

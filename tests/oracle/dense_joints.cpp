@@ -13,7 +13,7 @@ namespace {
 
 using glm::dvec3;
 
-// Parameters of the joint solver (explained in shaders/physics/solve/joint_axis.h).
+// Parameters of the joint solver (explained in shaders/physics/joint/joint_axis.h).
 constexpr double closed_part = 0.25;      // fraction of drift corrected per substep
 constexpr double max_turn_speed = 6;      // rad/s, maximum speed of angular drift correction
 constexpr double compliance_part = 1e-3;  // compliance of rigid rows, as a fraction of their inverse effective mass

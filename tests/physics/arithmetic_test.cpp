@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "shaders/physics/solve/contact_block.h"
+#include "shaders/physics/contact/contact_block.h"
 
 using namespace scree::physics;
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shaders/physics/solve/friction.h"
+#include "shaders/physics/contact/friction.h"
 
 using namespace scree;
 using namespace scree::physics;

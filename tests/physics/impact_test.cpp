@@ -1,5 +1,5 @@
 // Time of impact of two bodies moving through a step, against closed forms.
-#include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/continuous/time_of_impact.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Warm starting: impulses that a contact inherits from the previous step.
 #include <catch2/catch.hpp>
 
-#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/contact/contact.h"
 
 using namespace scree;
 using namespace scree::physics;

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shaders/physics/solve/contact.h"
-#include "shaders/physics/solve/contact_constraint.h"
-#include "shaders/physics/solve/mass_splitting.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/body/mass_splitting.h"
+#include "shaders/physics/contact/contact.h"
+#include "shaders/physics/contact/contact_constraint.h"
+#include "shaders/physics/contact/persistence.h"
 
 using namespace scree;
 using namespace scree::physics;

@@ -1,5 +1,5 @@
 // Free rotation against Euler's equations: angular momentum, energy and direction, from balls to needles, slow and fast.
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/motion.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "shaders/physics/solve/contact_pass.h"
-#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/physics/contact/contact_pass.h"
+#include "shaders/physics/contact/contact_preparation.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

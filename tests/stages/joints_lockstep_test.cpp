@@ -8,7 +8,7 @@
 #include "compute/tables/state.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/joint/joint_block.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/jointed.h"

@@ -12,7 +12,7 @@
 #include "compute/parallel/threads.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"
-#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/continuous/clamping.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 

@@ -8,7 +8,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"

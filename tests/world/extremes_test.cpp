@@ -15,7 +15,7 @@ using namespace scree;
 
 namespace {
 
-// Twice the greatest speed and spin of the default settings (shaders/physics/solve/motion.h: held_velocity), and rounding.
+// Twice the greatest speed and spin of the default settings (shaders/physics/body/motion.h: held_velocity), and rounding.
 constexpr float fastest = 2 * 400 * 1.0001f, fastest_turn = 2 * 0.785f * 720 * 1.0001f;
 
 // What fuzzing found infinite: springs and motors that ask for more speed than a body can have, slender bodies, far anchors.

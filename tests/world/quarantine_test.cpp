@@ -1,4 +1,4 @@
-// Quarantine (shaders/physics/extra/quarantine.h): bodies that a scene makes infinite stop, are told, and leave the others alone.
+// Quarantine (shaders/physics/body/quarantine.h): bodies that a scene makes infinite stop, are told, and leave the others alone.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <memory>

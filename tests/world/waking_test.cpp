@@ -4,7 +4,7 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/tables/state.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "tests/world/heaps.h"
 #include "tests/world/sleepers.h"
 

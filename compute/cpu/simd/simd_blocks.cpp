@@ -5,9 +5,9 @@
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
-#include "shaders/physics/solve/contact_solver.h"
-#include "shaders/physics/solve/joint_matrix.h"
-#include "shaders/physics/solve/joint_pass.h"
+#include "shaders/physics/contact/contact_solver.h"
+#include "shaders/physics/joint/joint_matrix.h"
+#include "shaders/physics/joint/joint_pass.h"
 #undef float
 #undef bool
 

@@ -4,8 +4,8 @@
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
-#include "shaders/physics/solve/joint_matrix.h"
-#include "shaders/physics/solve/joint_turns.h"
+#include "shaders/physics/joint/joint_matrix.h"
+#include "shaders/physics/joint/joint_turns.h"
 #undef float
 #undef bool
 

@@ -4,7 +4,7 @@
 #define SCREE_PHYSICS_RECORDS_H
 
 #include "shaders/physics/base/dialect.h"
-#include "shaders/physics/collide/shapes.h"
+#include "shaders/physics/base/shapes.h"
 
 LAWS_BEGIN
 
@@ -81,7 +81,7 @@ CONSTANT uint COMBINE_MULTIPLY = 4u;
 CONSTANT uint COMBINE_MAXIMUM = 5u;
 CONSTANT uint COMBINE_OVERRIDING_MINIMUM = 6u;
 CONSTANT uint COMBINE_OVERRIDING_AVERAGE = 7u;
-// How a body meets air and water (fields.h).
+// How a body meets air and water (medium.h).
 struct Immersion {
     vec3 half_extents;  // of a box, or of an ellipsoid, of the body's volume, body axes, m
     float volume;       // m^3
@@ -549,7 +549,7 @@ struct Parameters {  // uniform over a step
     uint contact_slots_offset;
     uint most_groups;  // workgroups of a dispatch along one axis
     uint pad0;
-    // Fields (fields.h).
+    // Fields (medium.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air
     vec3 water_normal;       // unit, up

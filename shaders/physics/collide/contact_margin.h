@@ -2,7 +2,7 @@
 #ifndef SCREE_PHYSICS_CONTACT_MARGIN_H
 #define SCREE_PHYSICS_CONTACT_MARGIN_H
 
-#include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/body/body_scale.h"
 #include "shaders/physics/collide/manifold.h"
 
 LAWS_BEGIN

@@ -2,8 +2,8 @@
 #ifndef SCREE_PHYSICS_CONVEX_SUPPORT_H
 #define SCREE_PHYSICS_CONVEX_SUPPORT_H
 
+#include "shaders/physics/body/sweep.h"
 #include "shaders/physics/collide/shape_data.h"
-#include "shaders/physics/extra/sweep.h"
 
 LAWS_BEGIN
 

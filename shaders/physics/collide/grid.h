@@ -12,10 +12,10 @@
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/sweep.h"
 #include "shaders/physics/collide/contact_margin.h"
 #include "shaders/physics/collide/manifold.h"
-#include "shaders/physics/extra/sweep.h"
 
 LAWS_BEGIN
 

@@ -9,9 +9,9 @@
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
-#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/base/shapes.h"
+#include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/shape_data.h"
-#include "shaders/physics/collide/shapes.h"
 
 LAWS_BEGIN
 

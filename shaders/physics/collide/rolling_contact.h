@@ -8,9 +8,9 @@
 #ifndef SCREE_PHYSICS_ROLLING_CONTACT_H
 #define SCREE_PHYSICS_ROLLING_CONTACT_H
 
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/sweep.h"
 #include "shaders/physics/collide/manifold.h"
-#include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
 

@@ -15,7 +15,7 @@
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
-#include "shaders/physics/collide/shapes.h"
+#include "shaders/physics/base/shapes.h"
 
 LAWS_BEGIN
 

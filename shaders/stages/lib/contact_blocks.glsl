@@ -1,8 +1,8 @@
-// Blocks of contacts (shaders/physics/solve/contact_block.h): which contacts follow one another.
+// Blocks of contacts (shaders/physics/contact/contact_block.h): which contacts follow one another.
 #ifndef SCREE_STAGES_CONTACT_BLOCKS_GLSL
 #define SCREE_STAGES_CONTACT_BLOCKS_GLSL
 
-#include "shaders/physics/solve/contact_block.h"
+#include "shaders/physics/contact/contact_block.h"
 #include "shaders/stages/lib/ids.glsl"
 
 // The slots of the movable body of a contact that has fewer: all contacts of the pair are among them, in one order.

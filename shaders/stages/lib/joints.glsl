@@ -2,8 +2,8 @@
 #ifndef SCREE_STAGES_JOINTS_GLSL
 #define SCREE_STAGES_JOINTS_GLSL
 
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/joint_block.h"
+#include "shaders/physics/joint/joint_block.h"
+#include "shaders/physics/sleep/sleep.h"
 
 uint block, block_first_joint, block_joints, block_first_body, block_size;
 

@@ -3,7 +3,7 @@
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
-#include "shaders/physics/collide/filter.h"
+#include "shaders/physics/body/filter.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/ids.glsl"
 

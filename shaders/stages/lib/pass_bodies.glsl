@@ -3,13 +3,13 @@
 #define SCREE_STAGES_PASS_BODIES_GLSL
 
 #include "shaders/physics/base/passes.h"
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/extra/grab_spring.h"
-#include "shaders/physics/extra/quarantine.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/contact_solver.h"
-#include "shaders/physics/solve/driven.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/driven.h"
+#include "shaders/physics/body/grab_spring.h"
+#include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/quarantine.h"
+#include "shaders/physics/contact/contact_solver.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 

@@ -3,8 +3,8 @@
 #define SCREE_STAGES_PASS_CONTACTS_GLSL
 
 #include "shaders/physics/base/passes.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/contact_pass.h"
+#include "shaders/physics/contact/contact_pass.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/impulses.glsl"

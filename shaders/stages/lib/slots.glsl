@@ -3,7 +3,7 @@
 #define SCREE_STAGES_SLOTS_GLSL
 
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/ids.glsl"
 
 bool can_be_moved(uint body) {

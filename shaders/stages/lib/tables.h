@@ -78,7 +78,7 @@
     X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
     X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
     X(27, tyres, QuadsTable, Tyre, tyres)                                                                     \
-    X(27, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
+    X(27, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: medium.h */      \
     X(27, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
     X(27, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
     X(27, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
