@@ -40,6 +40,7 @@ Shift examine(const Examination& body, Body& b, CheckedShapes& shapes, std::vect
     fields::check_fields(body, b);
     const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, shapes, notes));
     if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
+    if (shift) fields::check_field(body, b, fields::field_of(&Body::position));  // of the centre of mass
     check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");

@@ -290,3 +290,23 @@ TEST_CASE("what acts from outside acts alike on both processors", "[process:stag
         REQUIRE(cpu.state_hash() == device.state_hash());
     }
 }
+
+TEST_CASE("two fragments that touch through a step take many rounds of advancement, with the same bits on both processors",
+          "[process:stages]") {
+    Scene scene;
+    Body splinter{.shape = Ellipsoid{{0.10693883f, 1.9163887f, 0.0034199531f}},
+                  .position = {-0.33818206f, 1.1643378f, 0.4126723f}};
+    splinter.fracture = Fracture{.impulse = 2.1164585f, .pieces = 15};
+    splinter.rolling_resistance = 1e5f;
+    Body egg{.shape = Ellipsoid{{0.93228327f, 0.28185306f, 0.41069023f}}, .position = {0.04772896f, 1.7314215f, 0.23719242f}};
+    egg.rolling_resistance = 1e5f;
+    scene.bodies = {splinter, egg};
+    contacts_walked(scene, Watched(), 12);
+}
+
+TEST_CASE("a gravity scale below zero gives the same bits on both processors, also along axes without gravity",
+          "[process:stages]") {
+    Scene scene = tests::packed(20);
+    for (Body& body : scene.bodies) body.gravity_scale = -0.001f;
+    contacts_walked(scene, Watched(), 3);
+}

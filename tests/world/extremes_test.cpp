@@ -42,6 +42,8 @@ const std::vector<std::string> extremes = {
     R"({"bodies": [{"shape": {"box": {"half_extents": [0.09, 0.12, 0.1]}}}, {"shape": {"sphere": {"radius": 0.1}}, "position": [0, 0.3, 0]}],
         "joints": [{"kind": {"cone_twist": {"swing": 0.6, "twist": {"lower": -0.8, "upper": 0.8}}}, "a": 0, "b": 1,
         "anchor_a": [0, 0.2, 0], "anchor_b": [0, 1e6, 0]}]})",
+    R"({"bodies": [{"motion": "fixed", "shape": {"plane": {"normal": [0, 1, 0], "offset": 0}}}, {"shape": {"sphere": {"radius": 1000}},
+        "position": [-2.4, 0.51, 0], "rolling_resistance": 0.005, "angular_velocity": [8000, 0, -960]}]})",
 };
 
 void require_bounded(const World& world) {
@@ -137,4 +139,16 @@ TEST_CASE("a cloud of splinters that flies has contacts of those that may meet")
     const double before = world.statistics().momentum[0];
     world.step(20);
     CHECK(world.statistics().momentum[0] == Approx(before).epsilon(0.02));
+}
+
+TEST_CASE("a body whose centre of mass lies beyond the range of positions is refused by name, also if its origin lies within") {
+    Scene scene;
+    Body wedge;
+    wedge.shape = Hull{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    wedge.position = {1e6f, 0, 0};
+    scene.bodies.push_back(wedge);
+    CHECK_THROWS_WITH(checked(scene), Catch::Contains("/bodies/0/position/0") && Catch::Contains("1000000"));
+    scene.bodies[0].position.x = -1e6f;
+    const Scene once = checked(scene);
+    CHECK_NOTHROW(checked(once));  // its centre lies further inside
 }

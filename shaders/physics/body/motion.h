@@ -16,7 +16,8 @@ LAW bool has_weight(Parameters parameters) {
 
 LAW BodyForces gravity_forces(BodyProperties properties, Parameters parameters) {
     BodyForces load;
-    load.acceleration = choose(properties.motion == MOTION_DYNAMIC, parameters.gravity * properties.gravity_scale, vec3(0.0f));
+    vec3 gravity = flush_tiny(parameters.gravity * properties.gravity_scale);
+    load.acceleration = choose(properties.motion == MOTION_DYNAMIC, gravity, vec3(0.0f));
     load.kept = 1.0f;
     load.angular_acceleration = vec3(0.0f);
     load.impacts = 0.0f;

@@ -70,22 +70,35 @@ LAW Corners corners_towards(ConvexShape solid, vec3 local, Hulls hulls) {
 LAW uint corner_in(Corners corners, uint k) {
     return corners.all ? k : byte_of(corners.list, k + 1u);
 }
-// The support vertex of a hull (the first of equals), hull frame. Cells also keep loops short: lavapipe silently ends a
-// shader's loops after 65,535 rounds in all, which two hulls of 30 vertices that spin beside each other exceeded when
-// each support searched all vertices.
+// A vertex and how far it lies along a direction, m.
+struct Farthest {
+    vec3 vertex;
+    float reach;
+};
+LAW Farthest farther(Farthest best, Corners corners, uint k, ConvexShape solid, vec3 local, Hulls hulls) {
+    uint last = corners.count - 1u;
+    vec3 vertex = hull_vertex(hulls, solid.hull, corner_in(corners, k < last ? k : last));
+    float reach = dot3(vertex, local);
+    if (reach > best.reach) {
+        best.reach = reach;
+        best.vertex = vertex;
+    }
+    return best;
+}
+// The support vertex of a hull (the first of equals), hull frame. Four in a round, and cells, keep loops short: lavapipe silently
+// ends a shader's loops after 65,535 rounds in all, and two fragments that touch through a step took more, one by one.
 LAW vec3 farthest_vertex(ConvexShape solid, vec3 local, Hulls hulls) {
     Corners corners = corners_towards(solid, local, hulls);
-    vec3 farthest = local;
-    float reach = -1.0e30f;
-    for (uint k = 0u; k < corners.count; ++k) {
-        vec3 vertex = hull_vertex(hulls, solid.hull, corner_in(corners, k));
-        float so_far = dot3(vertex, local);
-        if (so_far > reach) {
-            reach = so_far;
-            farthest = vertex;
-        }
+    Farthest best;
+    best.vertex = local;
+    best.reach = -1.0e30f;
+    for (uint k = 0u; k < corners.count; k += 4u) {
+        best = farther(best, corners, k, solid, local, hulls);
+        best = farther(best, corners, k + 1u, solid, local, hulls);
+        best = farther(best, corners, k + 2u, solid, local, hulls);
+        best = farther(best, corners, k + 3u, solid, local, hulls);
     }
-    return farthest;
+    return best.vertex;
 }
 
 // Support point of the core (`direction` of any length but 0).

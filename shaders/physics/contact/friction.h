@@ -30,6 +30,11 @@
 
 LAWS_BEGIN
 
+// The determinant of a matrix scaled to a trace of 1 is lost in rounding where a body is slender beyond 1 : 1000, or a lever arm
+// many radii long. The impulse that it gives is then too great, and the limit bounds it.
+CONSTANT float LEAST_DETERMINANT = 1.0e-12f;
+CONSTANT float MAX_IMPULSE = 1.0e18f;  // N m s: the square is finite
+
 // Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
 // normal impulse. As friction, it opposes the rotation that it cannot stop.
 LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
@@ -46,9 +51,9 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     y = y * unit;
     z = z * unit;
     vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
-    float determinant = reciprocal(dot3(x, yz));
+    float inverse = reciprocal(larger(dot3(x, yz), LEAST_DETERMINANT));
     vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
-    vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
+    vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * inverse;
     bool spins = (c.flags & CONSTRAINT_ROLLS_ONLY) != 0u;  // freely, but for the friction of the patch
     if (!none(spins)) {
         spin = choose(spins, spin - c.normal * dot3(c.normal, spin), spin);
@@ -63,7 +68,8 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
         // The greatest row sum is not below the greatest eigenvalue, and equal to it for a ball.
         vec3 sums = (absolute3(x) + absolute3(y)) + absolute3(z);
         float greatest = larger(sums.x, larger(sums.y, sums.z));
-        after = choose(rolls, flush_tiny(shortened(flush_tiny(from - spin * reciprocal(greatest)), most)), after);
+        vec3 far = vec3(MAX_IMPULSE), step = flush_tiny(from - spin * reciprocal(greatest));
+        after = choose(rolls, flush_tiny(shortened(larger3(-far, smaller3(far, step)), most)), after);
     }
     s.impulse.rolling = after;
     s.wrench.moment = s.wrench.moment + (after - before);
@@ -90,10 +96,11 @@ LAW vec3 path_curvature(vec3 angular, vec3 arm, float h) {
     return acceleration * (0.5f * h) + cross3(angular, acceleration) * (0.16666667f * (h * h));
 }
 
-// B minus A at the centre of the patch, with the curvature of their paths, m/s.
-LAW vec3 slip_of(LeverArms r, VelocityPair v, Parameters parameters) {
+// B minus A at the centre of the patch, with the curvature of their paths, m/s. A ball that rolls does not touch where it did:
+// its contact has no path. (With one, a ball of 2 cm that rolls at 1 m/s and spins at 300 rad/s ran off sideways at 6 cm/s.)
+LAW vec3 slip_of(Constraint c, LeverArms r, VelocityPair v, Parameters parameters) {
     vec3 slip = velocity_at(r, v), wa = v.a.angular, wb = v.b.angular;
-    bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
+    bool turns = point_count(c) > 1u && dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
     if (!none(turns)) {
         // Bodies may spin beyond the limit within a pass, where the series diverges.
         vec3 curve_a = path_curvature(shortened(wa, parameters.max_spin), r.a, parameters.h);
@@ -123,7 +130,7 @@ LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
 
 // After the positions were integrated with `v`: the patch's stretch, which turns with the bodies as its friction does.
 LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
-    vec3 slip = slip_of(lever_arms(c, c.centre, impulse.center_offset), v, parameters), wa = v.a.angular, wb = v.b.angular;
+    vec3 slip = slip_of(c, lever_arms(c, c.centre, impulse.center_offset), v, parameters), wa = v.a.angular, wb = v.b.angular;
     bool driven = is_driven(c);
     if (!none(driven)) slip = choose(driven, slip + drive_of(c), slip);
     slip = slip - c.normal * dot3(slip, c.normal);
@@ -192,8 +199,10 @@ struct PatchImpulse {
 // The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
 // `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2. `resists`:
 // the impulse is on the surface at once. A step of spin on an arm that is short beside the body is a small part of the
-// limit, and spinning resistance would act like a viscous one. (With that for every patch, columns of tables on feet fell.)
-LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold, bool resists) {
+// limit, and spinning resistance would act like a viscous one. (With that for every patch, columns of tables on feet fell.) It
+// stops the spin at most, `stopping`: on an arm of many radii the limit would reverse it.
+LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold, bool resists,
+                      float stopping) {
     // Squares are of quotients by the friction limit: the squares of impulses on grains leave the range of a float.
     vec3 held = before.friction * hold;
     float area = arm * arm, x = smaller(dot3(held, held), 1.0f), y = before.twist * hold;
@@ -213,6 +222,9 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     scale = choose(resists || squared > bound, scale, 1.0f);
     after.friction = flush_tiny(after.friction * scale);
     after.twist = flush_tiny(after.twist * scale);
+    float stopped = before.twist + stopping;
+    bool reverses = resists && abs(after.twist) > abs(stopped) && (after.twist - stopped) * stopping >= 0.0f;
+    after.twist = choose(reverses, flush_tiny(stopped), after.twist);
     return after;
 }
 
@@ -238,7 +250,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         spin_mass = choose(twists, spin_mass, 0.0f);
         after.twist = choose(twists, flush_tiny(before.twist + stopping), before.twist);
     }
-    vec3 slip = slip_of(r, v, parameters) * k.unit;
+    vec3 slip = slip_of(c, r, v, parameters) * k.unit;
     k.slip1 = dot3(k.t1, slip);
     k.slip2 = dot3(k.t2, slip);
     // The block's tangents are those of the drive.
@@ -251,7 +263,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         float compliance = smaller(c.tyre_slip * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
         k = with_compliance(k, slips, compliance, before.friction);
     }
-    float inverse = reciprocal(k.k11 * k.k22 - k.k12 * k.k12);
+    float inverse = reciprocal(larger(k.k11 * k.k22 - k.k12 * k.k12, LEAST_DETERMINANT));
     float bias = anchor.rate * k.unit;
     float slip1 = k.slip1 + k.turn1 * stopping + bias * dot3(k.t1, s.impulse.stretch);
     float slip2 = k.slip2 + k.turn2 * stopping + bias * dot3(k.t2, s.impulse.stretch);
@@ -270,7 +282,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {
         bool resists = (c.flags & CONSTRAINT_ROLLS_ONLY) != 0u && !(anchor.give > 0.0f);  // spinning, with its own arm
-        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold, resists);
+        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold, resists, stopping);
         after.friction = choose(slides, sliding.friction, after.friction);
         after.twist = choose(slides && twists, sliding.twist, after.twist);
     }
