@@ -44,10 +44,6 @@ void DistributedRunner::attach(State& state) {
     adapt();
 }
 
-bool DistributedRunner::can_begin_shared() const {
-    return exchange_->ranks() > 1;
-}
-
 std::vector<std::uint64_t> DistributedRunner::borders_of(std::vector<std::uint64_t> places) {
     return ownership_.divide(std::move(places), exchange_->ranks());
 }
@@ -110,7 +106,7 @@ void DistributedRunner::adapt() {
 bool DistributedRunner::can_share_out() const {
     const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
     const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
-    return exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
+    return !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
 }
 
 void DistributedRunner::share_out() {

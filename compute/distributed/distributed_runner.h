@@ -14,6 +14,7 @@
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
+#include "compute/distributed/ranks.h"
 #include "compute/distributed/share.h"
 #include "compute/plan/plan.h"
 #include "compute/plan/stage_clock.h"
@@ -21,7 +22,7 @@
 
 namespace scree {
 
-class DistributedRunner : public Runner {
+class DistributedRunner : public Runner, public Ranks {
 public:
     // `make_device`: makes the runner of the stages; null: the CPU runs them, with `threads` threads.
     DistributedRunner(std::shared_ptr<Exchange> exchange, int threads, DeviceSide::Make make_device = nullptr)
@@ -31,15 +32,13 @@ public:
     std::uint32_t group_size() const override { return device_ ? device_.runner().group_size() : 64; }
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
-    int ranks() const override { return exchange_->ranks(); }
-    int rank() const override { return exchange_->rank(); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) const override { return exchange_->swap(to); }
+    Ranks* ranks() override { return exchange_->ranks() > 1 ? this : nullptr; }
+    Exchange& exchange() const override { return *exchange_; }
     void download_own_contacts() override;
     void download_share() override;
     bool can_share_out() const override;
     void share_out() override;
     void make_whole() override;
-    bool can_begin_shared() const override;
     std::vector<std::uint64_t> borders_of(std::vector<std::uint64_t> places) override;
     void attach_share(State& state, std::vector<int> owners, std::span<const std::uint32_t> own,
                       const std::function<void()>& fill) override;

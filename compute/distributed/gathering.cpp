@@ -29,7 +29,7 @@ void gather_rows(State& state, Exchange& exchange, const TableRange& range) {
         said.insert(said.end(), table.begin() + static_cast<std::ptrdiff_t>(row * bytes),
                     table.begin() + static_cast<std::ptrdiff_t>((row + 1) * bytes));
     }
-    for (const Bytes& told : exchange.gather(said))
+    for (const Bytes& told : exchange.all_gather(said))
         for (std::size_t at = 0; at < told.size(); at += sizeof(std::uint32_t) + bytes) {
             std::uint32_t row = 0;
             std::memcpy(&row, &told[at], sizeof row);
@@ -44,7 +44,7 @@ void gather_contacts(State& state, Exchange& exchange) {
             if (state.tells_of(state.contacts[k]))
                 put(said, TracedContact{{row, ContactRecords::of(state, k)}, k < state.carried.size() ? state.carried[k] : 0.0f});
     std::vector<TracedContact> all;
-    for (const Bytes& told : exchange.gather(said))
+    for (const Bytes& told : exchange.all_gather(said))
         for (Unpacker from(told); from.has_more();) all.push_back(from.take<TracedContact>());
     const auto key = [&](const TracedContact& one) {
         const OwnedContact& c = one.contact;
@@ -69,7 +69,7 @@ void gather_joints(State& state, Exchange& exchange) {
             put(said, state.joints[k]);
         }
     }
-    for (const Bytes& told : exchange.gather(said))
+    for (const Bytes& told : exchange.all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const auto k = from.take<std::uint32_t>();
             from.take(state.joints[k]);
@@ -83,7 +83,7 @@ void gather_vehicles(State& state, Exchange& exchange) {
         put(said, i);
         put(said, state.vehicles[i]);
     }
-    for (const Bytes& told : exchange.gather(said))
+    for (const Bytes& told : exchange.all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const auto i = from.take<std::uint32_t>();
             from.take(state.vehicles[i]);

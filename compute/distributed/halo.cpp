@@ -101,7 +101,7 @@ void Halo::find_near(const State& state, Exchange& exchange) {
     put(said, all);
     const auto ranks = static_cast<std::size_t>(exchange.ranks()), own = static_cast<std::size_t>(exchange.rank());
     std::vector<Box> theirs(ranks);
-    const std::vector<Bytes> told = exchange.gather(said);
+    const std::vector<Bytes> told = exchange.all_gather(said);
     for (std::size_t r = 0; r < ranks; ++r) Unpacker(told[r]).take(theirs[r]);
     const auto may_touch = [&](std::size_t r) {
         return r != own && overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper);
@@ -119,7 +119,7 @@ void Halo::find_near(const State& state, Exchange& exchange) {
         }
         told_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> regions = exchange.swap(told_cells);
+    const std::vector<Bytes> regions = exchange.all_to_all(told_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
         told_cells[r].clear();
         if (!may_touch(r)) continue;
@@ -129,7 +129,7 @@ void Halo::find_near(const State& state, Exchange& exchange) {
         for (const std::size_t k : near[r]) set.add(boxes[k].lower, boxes[k].upper);
         told_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> sets = exchange.swap(told_cells);
+    const std::vector<Bytes> sets = exchange.all_to_all(told_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
         if (!may_touch(r)) continue;
         const CellSet set(state.fixed().inverse_cell, sets[r]);
@@ -172,7 +172,7 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange, Sh
         to_[r].erase(std::unique(to_[r].begin(), to_[r].end()), to_[r].end());
         ghosts[r] = start_of(state, to_[r], known_[r]);
     }
-    take_ghosts(state, share, exchange.swap(ghosts));
+    take_ghosts(state, share, exchange.all_to_all(ghosts));
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
         state.presence[row] = state.presence[state.properties[row].owner];
 }
@@ -298,7 +298,7 @@ void Halo::send_struck(State& state, Exchange& exchange) {
         put(said, state.id_of(row));
         put(said, state.bounds[row].sweep.struck);
     }
-    for (const Bytes& told : exchange.gather(said))
+    for (const Bytes& told : exchange.all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
             state.bounds[row].sweep.struck |= from.take<std::uint32_t>();

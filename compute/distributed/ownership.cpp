@@ -151,7 +151,7 @@ void Ownership::give_contacts(State& state, Exchange& exchange) {
     std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) put_list(to[r], contacts[r]);
     std::vector<OwnedContact> more;
-    for (const Bytes& one : exchange.swap(to)) {
+    for (const Bytes& one : exchange.all_to_all(to)) {
         Unpacker from(one);
         for (const OwnedContact& contact : take_list<OwnedContact>(from)) more.push_back(by_rows(state, contact));
     }
@@ -200,7 +200,7 @@ void Ownership::place(State& state, Exchange& exchange) {
     }
     for (std::uint32_t row = first_part; row < rows; ++row) state.presence[row] = state.presence[state.properties[row].owner];
     if (!any_stopped) return;
-    for (const Bytes& told : exchange.gather(no_longer_dynamic))
+    for (const Bytes& told : exchange.all_gather(no_longer_dynamic))
         for (Unpacker from(told); from.has_more();) take_body(state, from.take<MovedBody>());
 }
 
@@ -229,7 +229,7 @@ void Ownership::balance(State& state, Exchange& exchange, Share& share) {
     }
     std::vector<Sample> all;
     double most = 0, sum = 0;
-    for (const Bytes& told : exchange.gather(said)) {
+    for (const Bytes& told : exchange.all_gather(said)) {
         Unpacker from(told);
         const auto cost = from.take<double>();
         most = std::max(most, cost);
@@ -271,7 +271,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
         put(said, id);
         put(said, target);
     }
-    const std::vector<Bytes> told = exchange.gather(said);
+    const std::vector<Bytes> told = exchange.all_gather(said);
     if (std::all_of(told.begin(), told.end(), [](const Bytes& one) { return one.empty(); })) return;
     const int own = exchange.rank();
     std::unordered_set<std::uint32_t> left;
@@ -336,7 +336,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
     }
     std::vector<MovedBody> come;
     std::vector<OwnedContact> more;
-    for (const Bytes& one : exchange.swap(to)) {
+    for (const Bytes& one : exchange.all_to_all(to)) {
         Unpacker from(one);
         const auto some_bodies = take_list<MovedBody>(from);
         come.insert(come.end(), some_bodies.begin(), some_bodies.end());

@@ -183,7 +183,7 @@ void Share::end(State& state, Exchange& exchange) {
     free_.clear();
     changes_ = {};
     drop_caches(state);
-    const std::vector<Bytes> told = exchange.gather(said);
+    const std::vector<Bytes> told = exchange.all_gather(said);
     for (std::size_t r = 0; r < told.size(); ++r) {
         if (r == static_cast<std::size_t>(exchange.rank())) continue;
         for (Unpacker bodies(told[r]); bodies.has_more();) {

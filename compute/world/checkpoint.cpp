@@ -418,13 +418,13 @@ void World::save_in_pieces(const TakePiece& take) const {
     const Impl& in = local();
     if (in.shared) return in.put_shares(take);
     const std::vector<std::byte> all = save();
-    if (in.runner->rank() == 0) take(0, all);
+    if (!in.ranks || in.ranks->exchange().rank() == 0) take(0, all);
 }
 
 void World::Impl::put_shares(const TakePiece& take) const {
-    const bool first = runner->rank() == 0;
-    runner->download_share();
-    const StateParts parts(state, *runner);
+    const bool first = ranks->exchange().rank() == 0;
+    ranks->download_share();
+    const StateParts parts(state, ranks->exchange());
     ByteWriter front, back;
     front.put_list(std::span<const std::byte>(edits));  // since the shares were made
     put_world(front);

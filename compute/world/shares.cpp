@@ -1,4 +1,4 @@
-// World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Runner::share_out).
+// World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Ranks::share_out).
 //
 // Of the scene a rank keeps the bodies that do not move, and those of a range of ids: it is their home. What is asked of all
 // bodies in the order of ids, hashes and sums, is found there. All else brings the whole world back to every rank.
@@ -17,8 +17,6 @@
 namespace scree {
 
 namespace {
-
-using Bytes = std::vector<std::byte>;
 
 // Steps without a look at the whole world after which it is shared out again.
 constexpr int steps_to_share = 8;
@@ -51,13 +49,13 @@ const HullForm* form_of(const Body& body) {
 
 void World::share_out() {
     Impl& in = local();
-    if (in.runner->ranks() > 1 && !in.shared && in.can_be_shared()) in.share_out();
+    if (in.ranks && !in.shared && in.can_be_shared()) in.share_out();
 }
 
 std::optional<World::Share> World::share() const {
     const Impl& in = local();
     if (!in.shared) return std::nullopt;
-    in.runner->download_share();
+    in.ranks->download_share();
     return Share{in.state, in.shared->still, in.shared->hulls};
 }
 
@@ -68,11 +66,11 @@ bool World::Impl::can_be_shared() const {
            !events.settings().any() && std::all_of(grips.begin(), grips.end(), is_dropped) && scene.joints.empty() &&
            scene.vehicles.empty() && scene.exclusions.empty() && state.body_count == state.fixed().first_part &&
            std::find(gone.begin(), gone.end(), std::uint8_t{1}) == gone.end() &&
-           std::all_of(scene.bodies.begin(), scene.bodies.end(), is_plain) && runner->can_share_out();
+           std::all_of(scene.bodies.begin(), scene.bodies.end(), is_plain) && ranks->can_share_out();
 }
 
 void World::Impl::share_out_when_due() {
-    if (runner->ranks() == 1 || shared) return;
+    if (!ranks || shared) return;
     const bool waits = steps_until_shared > 0;
     if (waits || !can_be_shared()) {
         steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
@@ -83,9 +81,9 @@ void World::Impl::share_out_when_due() {
 
 void World::Impl::share_out() {
     (void)edits_now();  // for checkpoints: from the whole scene
-    runner->share_out();
+    ranks->share_out();
     Shared& own = shared.emplace();
-    own.divide(scene.bodies.size(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
+    own.divide(scene.bodies.size(), ranks->exchange());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         own.note(scene.bodies[i], i);
         if (own.is_home(i)) own.home.push_back(std::move(scene.bodies[i]));
@@ -93,10 +91,11 @@ void World::Impl::share_out() {
     std::vector<Body>().swap(scene.bodies);  // its memory, too
 }
 
-void World::Impl::Shared::divide(std::size_t of_whole, std::size_t ranks, std::size_t rank) {
+void World::Impl::Shared::divide(std::size_t of_whole, const Exchange& exchange) {
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
     bodies = of_whole;
     per_rank = (bodies + ranks - 1) / ranks;
-    first = std::min(bodies, rank * per_rank);
+    first = std::min(bodies, static_cast<std::size_t>(exchange.rank()) * per_rank);
 }
 
 void World::Impl::Shared::note(const Body& body, std::size_t id) {
@@ -110,13 +109,14 @@ void World::Impl::Shared::note(const Body& body, std::size_t id) {
 std::unique_ptr<World::Impl> World::Impl::of_streamed(const StreamedScene& scene, const Settings& settings,
                                                       std::unique_ptr<Runner> runner) {
     const Settings with = scree::checked(settings);
-    if (runner->can_begin_shared()) {
-        ShareStart start(scene, with, runner->group_size(), static_cast<std::uint32_t>(runner->ranks()));
+    if (Ranks* const ranks = runner->ranks()) {
+        const Exchange& exchange = ranks->exchange();
+        ShareStart start(scene, with, runner->group_size(), static_cast<std::uint32_t>(exchange.ranks()));
         if (start.survey()) {
             Shared own;
-            own.divide(start.bodies(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
-            const std::vector<std::uint64_t> borders = runner->borders_of(start.find_places());
-            std::vector<int> owners = start.keep_own(borders, runner->rank(), [&](const Body& body, std::size_t id) {
+            own.divide(start.bodies(), exchange);
+            const std::vector<std::uint64_t> borders = ranks->borders_of(start.find_places());
+            std::vector<int> owners = start.keep_own(borders, exchange.rank(), [&](const Body& body, std::size_t id) {
                 own.note(body, id);
                 if (own.is_home(id)) own.home.push_back(body);
             });
@@ -136,14 +136,14 @@ World::Impl::Impl(ShareStart& start, const Settings& t, std::unique_ptr<Runner> 
       fingerprint(start.fingerprint()) {
     shared.emplace(std::move(own));
     (void)edits_now();
-    runner->attach_share(state, std::move(owners), start.own_ids(), [&] { start.put_own(state); });
+    ranks->attach_share(state, std::move(owners), start.own_ids(), [&] { start.put_own(state); });
 }
 
 void World::Impl::make_whole() {
-    if (runner->ranks() > 1 && steps > 0) steps_until_shared = steps_to_share;
+    if (ranks && steps > 0) steps_until_shared = steps_to_share;
     if (runner->in_place()) state.allocate_all();
     if (!shared) return;
-    runner->make_whole();
+    ranks->make_whole();
     ByteWriter out;
     for (Body& body : shared->home) {
         if (body.motion != Motion::dynamic) continue;
@@ -152,7 +152,7 @@ void World::Impl::make_whole() {
         if (form) body.shape = Box{};
         put_value(out, body);
     }
-    const std::vector<Bytes> told = runner->gather(out.bytes());
+    const std::vector<Bytes> told = ranks->exchange().all_gather(out.bytes());
     std::vector<Body> bodies(shared->bodies);
     for (auto& [id, body] : shared->still) bodies[id] = std::move(body);
     for (std::size_t r = 0; r < told.size(); ++r) {
@@ -170,8 +170,8 @@ void World::Impl::make_whole() {
 
 // Of the bodies at home here, in the order of ids.
 std::vector<BodyRecord> World::Impl::records_at_home() const {
-    runner->download_share();
-    std::vector<Bytes> to(static_cast<std::size_t>(runner->ranks()));
+    ranks->download_share();
+    std::vector<Bytes> to(static_cast<std::size_t>(ranks->exchange().ranks()));
     std::vector<BodyRecord> records(shared->home.size());
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row)) {
@@ -180,7 +180,7 @@ std::vector<BodyRecord> World::Impl::records_at_home() const {
         }
     for (const auto& [id, body] : shared->still)
         if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
-    for (const Bytes& told : runner->swap(to))
+    for (const Bytes& told : ranks->exchange().all_to_all(to))
         for (std::size_t at = 0; at < told.size(); at += sizeof(TravellingBody)) {
             const auto body = record_at<TravellingBody>(told, at);
             records.at(body.id - shared->first) = body.now;
@@ -194,13 +194,14 @@ std::uint64_t World::Impl::hash_of_shares() const {
     for (const BodyRecord& now : records_at_home()) append_hashed(values, now.pose, now.velocity);
     XXH64_state_t hash;
     XXH64_reset(&hash, 0);
-    for (int rank = 0; rank < runner->ranks(); ++rank) {
+    Exchange& exchange = ranks->exchange();
+    for (int rank = 0; rank < exchange.ranks(); ++rank) {
         Bytes said;
-        if (rank == runner->rank()) {
+        if (rank == exchange.rank()) {
             XXH64_update(&hash, values.data(), values.size() * sizeof(float));
             append_record(said, hash);
         }
-        hash = record_at<XXH64_state_t>(runner->gather(said)[static_cast<std::size_t>(rank)], 0);
+        hash = record_at<XXH64_state_t>(exchange.all_gather(said)[static_cast<std::size_t>(rank)], 0);
     }
     return XXH64_digest(&hash);
 }
@@ -213,7 +214,7 @@ Statistics World::Impl::statistics_of_shares() const {
     Bytes said;
     append_record(said, own);
     BodySums all;
-    for (const Bytes& told : runner->gather(said)) all.add(record_at<BodySums>(told, 0));
+    for (const Bytes& told : ranks->exchange().all_gather(said)) all.add(record_at<BodySums>(told, 0));
     Statistics found = all.statistics();
     found.spin_limited = state.counted().spin_limited;
     add_contacts(all_contact_sums(), found);

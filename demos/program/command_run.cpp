@@ -194,7 +194,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         if (timeline) timeline->set_stages(traced);
         world.set_profiling(timed || traced);
         const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
-        const bool waits = world.runner().backend() != "cpu" && world.runner().ranks() == 1 && !report.step_ms.empty() &&
+        const bool waits = world.runner().backend() != "cpu" && !world.runner().ranks() && !report.step_ms.empty() &&
                            report.step_ms.back() < longest_waiting_ms;
         int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
         unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
@@ -302,7 +302,7 @@ std::vector<RunReport::RankCost> costs_of(Exchange& exchange, const RunReport& r
     Bytes said(sizeof own);
     std::memcpy(said.data(), &own, sizeof own);
     std::vector<RunReport::RankCost> all;
-    for (const Bytes& told : exchange.gather(said)) std::memcpy(&all.emplace_back(), told.data(), sizeof own);
+    for (const Bytes& told : exchange.all_gather(said)) std::memcpy(&all.emplace_back(), told.data(), sizeof own);
     return all;
 }
 

@@ -26,7 +26,7 @@ public:
     }
     int rank() const override { return inner_->rank(); }
     int ranks() const override { return inner_->ranks(); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) override { return count(), inner_->swap(to); }
+    std::vector<Bytes> all_to_all(const std::vector<Bytes>& to) override { return count(), inner_->all_to_all(to); }
     void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override { count(), inner_->start(to, from); }
     void finish() override { count(), inner_->finish(); }
     void unite(std::span<std::uint32_t> bits) override { count(), inner_->unite(bits); }

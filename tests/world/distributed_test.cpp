@@ -69,7 +69,7 @@ public:
     }
     int rank() const override { return inner_->rank(); }
     int ranks() const override { return inner_->ranks(); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) override { return inner_->swap(to); }
+    std::vector<Bytes> all_to_all(const std::vector<Bytes>& to) override { return inner_->all_to_all(to); }
     void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
         travels_ = true;
         inner_->start(to, from);
@@ -348,7 +348,7 @@ TEST_CASE("a world that is shared out is saved in pieces, of which no rank holds
             const bool goes_on = world.state_hash() == end;
             World other(built.scene, {}, make_distributed_runner(exchange));
             other.step(3);
-            exchange->gather({});  // the bytes are there
+            exchange->all_gather({});  // the bytes are there
             other.restore(all);
             const bool is_restored = other.statistics().penetration_max == statistics.penetration_max;
             other.step(50);

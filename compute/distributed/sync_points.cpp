@@ -200,7 +200,7 @@ void DistributedRunner::tell_quarantined() {
         put(said, state.masses[row].shares);
     }
     tell_ownerless(/* breaks */ false);
-    for (const Bytes& told : exchange_->gather(said))
+    for (const Bytes& told : exchange_->all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
             const auto mark = from.take<float>();
@@ -244,7 +244,7 @@ void DistributedRunner::tell_ownerless(bool breaks) {
                 put(said, state.vehicles[k]);
         }
     TableRanges found;
-    for (const Bytes& told : exchange_->gather(said))
+    for (const Bytes& told : exchange_->all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const auto table = from.take<Table>();
             const auto k = from.take<std::size_t>();
@@ -266,7 +266,7 @@ void DistributedRunner::tell_broken() {
             put(said, BrokenBody{row, state.poses[row], state.velocities[row]});
         if (!state.is_owned(row)) state.forces[row].kept = 1;
     }
-    for (const Bytes& told : exchange_->gather(said))
+    for (const Bytes& told : exchange_->all_gather(said))
         for (Unpacker from(told); from.has_more();) {
             const auto body = from.take<BrokenBody>();
             state.poses[body.row] = body.pose;
