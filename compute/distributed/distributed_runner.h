@@ -2,8 +2,8 @@
 //
 // Every rank moves the bodies that it owns (ownership.h), and has the tables of the whole scene or its share of them (share.h). A
 // contact at a border is solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other
-// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's
-// stages are told between them: here is the list of these places.
+// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, ranks
+// exchange between the plan's stages, at the sync points.
 #pragma once
 
 #include <memory>
@@ -50,8 +50,8 @@ public:
     StageTimes last_stage_times() const override { return clock_.last(); }
 
 private:
-    // What ranks tell each other before or after a stage.
-    enum class Talk {
+    // What ranks exchange before or after a stage.
+    enum class SyncPoint {
         none,
         ghosts,      // before the first stage that reads bounds: ghosts, with poses, velocities, forces
         flags,       // after compute_bounds: levels in use, who stirs, sleeps, is fast
@@ -65,22 +65,22 @@ private:
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };
-    bool say(Talk what);   // talk(), timed
-    bool talk(Talk what);  // false: the step is to be repeated with longer lists
+    bool sync(SyncPoint at);         // exchange_at(), timed
+    bool exchange_at(SyncPoint at);  // false: the step is to be repeated with longer lists
     void run(std::size_t stage);
-    // On the device: the stages from this one on up to the next that ranks talk before or after. Returns the stage after them.
+    // On the device: the stages from this one up to the next sync point. Returns the stage after them.
     std::size_t run_on_device(std::size_t first);
     void move_bodies_between_ranks();
     void place_bodies();
-    // Runs the stages of a pass, from this one, while what was said last travels. Returns the stage after them.
+    // Runs the stages of a pass, from this one, while what was sent last travels. Returns the stage after them.
     std::size_t pass_meanwhile(std::size_t first);
-    void agree_on_flags();
-    bool agree_on_room();
-    void tell_wake();
-    void tell_ends();
-    void tell_quarantined();
-    void tell_ownerless(bool breaks);
-    void tell_broken();
+    void sync_flags();
+    bool sync_room();
+    void sync_wake();
+    void sync_ends();
+    void sync_quarantined();
+    void sync_ownerless(bool breaks);
+    void sync_broken();
     void fetch_from_device(const std::vector<TableRange>& ranges);
     void forget_contacts();  // of other ranks, which were read
     void send(const std::vector<TableRange>& ranges) override;
@@ -94,7 +94,7 @@ private:
     bool edited_contacts_ = false;    // on the host, since the last step
     State* state_ = nullptr;
     std::vector<Stage> plan_;
-    std::vector<Talk> before_, after_;  // by stage
+    std::vector<SyncPoint> before_, after_;  // by stage
     int planned_substeps_ = 0;
     SceneFeatures planned_features_;
     StageClock clock_;

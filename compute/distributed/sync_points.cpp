@@ -1,4 +1,4 @@
-// What ranks tell each other between the stages of a step.
+// What ranks exchange between the stages of a step.
 #include <algorithm>
 #include <span>
 
@@ -20,7 +20,7 @@ struct BrokenBody {
 };
 
 // At the start of a step.
-const std::vector<Table>& told_of_ghosts() {
+const std::vector<Table>& tables_at_start() {
     static const std::vector<Table> all = [] {
         std::vector<Table> tables = tables_of_ghosts();
         tables.push_back(Table::forces);
@@ -31,26 +31,26 @@ const std::vector<Table>& told_of_ghosts() {
 
 }  // namespace
 
-bool DistributedRunner::say(Talk what) {
-    if (what == Talk::none) return true;
+bool DistributedRunner::sync(SyncPoint at) {
+    if (at == SyncPoint::none) return true;
     const TimedSlice slice(timeline(), "exchange");
-    return talk(what);
+    return exchange_at(at);
 }
 
-bool DistributedRunner::talk(Talk what) {
+bool DistributedRunner::exchange_at(SyncPoint at) {
     using enum Table;
     using Rows = DeviceSide::Rows;
     if (exchange_->ranks() == 1) {
-        if (what != Talk::room) return true;
+        if (at != SyncPoint::room) return true;
         device_.fetch_counts();
         return state_->counted().overflow == 0;
     }
     const bool fast = state_->counted().fast != 0;
-    switch (what) {
-        case Talk::none:
+    switch (at) {
+        case SyncPoint::none:
             break;
-        case Talk::ghosts:
-            device_.fetch(told_of_ghosts());
+        case SyncPoint::ghosts:
+            device_.fetch(tables_at_start());
             device_.fetch_contacts_of_sleepers();
             if (device_) share_.before_change = [&] { device_.fetch_for_new_rows(); };
             halo_.find(*state_, ownership_, *exchange_, share_);
@@ -58,53 +58,53 @@ bool DistributedRunner::talk(Talk what) {
             if (const Share::Changes changes = share_.changes(); changes.any()) device_.store_new_rows(changes);
             device_.take_rows(halo_);
             device_.mark_presence();
-            device_.store(told_of_ghosts(), Rows::ghosts);
+            device_.store(tables_at_start(), Rows::ghosts);
             break;
-        case Talk::flags:
+        case SyncPoint::flags:
             device_.fetch_counts();
             device_.fetch({masses}, Rows::ghosts);  // as the stage has found them
-            agree_on_flags();
+            sync_flags();
             device_.store_counts();
             break;
-        case Talk::room:
+        case SyncPoint::room:
             device_.fetch_counts();
-            return agree_on_room();
-        case Talk::struck:
+            return sync_room();
+        case SyncPoint::struck:
             if (!fast) break;
             device_.fetch({bounds});
             halo_.send_struck(*state_, *exchange_);
             device_.store({bounds});
             break;
-        case Talk::wake:
-            tell_wake();
+        case SyncPoint::wake:
+            sync_wake();
             break;
-        case Talk::velocities:
+        case SyncPoint::velocities:
             device_.fetch({velocities, masses}, Rows::sent);
             halo_.start_velocities(*state_, *exchange_);
             if (!device_) break;
             halo_.finish(*state_, *exchange_);
             device_.store({velocities, masses}, Rows::ghosts);
             break;
-        case Talk::motion:
+        case SyncPoint::motion:
             device_.fetch({velocities, poses, forces, impact_debts}, Rows::sent);
             halo_.start_motion(*state_, *exchange_);
             if (!device_) break;
             halo_.finish(*state_, *exchange_);
             device_.store({velocities, poses, forces, impact_debts, masses}, Rows::ghosts);
             break;
-        case Talk::ends:
+        case SyncPoint::ends:
             device_.fetch_counts();
-            tell_ends();
+            sync_ends();
             device_.store_counts();
             break;
-        case Talk::stops:
+        case SyncPoint::stops:
             if (!fast) break;
             device_.fetch({bounds}, Rows::sent);
             device_.fetch({bounds}, Rows::ghosts);
             halo_.send_stops(*state_, *exchange_);
             device_.store({bounds}, Rows::ghosts);
             break;
-        case Talk::kept: {
+        case SyncPoint::kept: {
             device_.fetch_counts();
             std::uint32_t broken[1] = {state_->counted().broken};
             exchange_->add(broken);
@@ -116,17 +116,17 @@ bool DistributedRunner::talk(Talk what) {
             device_.store({forces}, Rows::ghosts);
             break;
         }
-        case Talk::broken:
+        case SyncPoint::broken:
             if (state_->counted().broken == 0) break;
             device_.fetch({forces, poses, velocities});
-            tell_broken();
+            sync_broken();
             device_.store({forces, poses, velocities});
             break;
     }
     return true;
 }
 
-void DistributedRunner::agree_on_flags() {
+void DistributedRunner::sync_flags() {
     physics::Counts& counts = state_->counted();
     std::uint32_t flags[5] = {counts.levels, counts.levels_stirring, counts.large_stirring, counts.sleepers, counts.fast};
     exchange_->unite(flags);
@@ -137,14 +137,14 @@ void DistributedRunner::agree_on_flags() {
     counts.fast = flags[4];
 }
 
-bool DistributedRunner::agree_on_room() {
+bool DistributedRunner::sync_room() {
     std::uint32_t overflow[1] = {state_->counted().overflow};
     exchange_->unite(overflow);
     return overflow[0] == 0;
 }
 
 // What is awake by then is known to all; without shaking bodies one round is enough.
-void DistributedRunner::tell_wake() {
+void DistributedRunner::sync_wake() {
     using Rows = DeviceSide::Rows;
     physics::Counts& counts = state_->counted();
     if (!counts.sleepers || !physics::any_stirs(counts)) return;
@@ -169,7 +169,7 @@ void DistributedRunner::tell_wake() {
     device_.store({Table::sleep_states}, Rows::ghosts);
 }
 
-void DistributedRunner::tell_ends() {
+void DistributedRunner::sync_ends() {
     physics::Counts& counts = state_->counted();
     std::uint32_t sums[3] = {counts.fast, counts.spin_limited - spin_limited_, counts.quarantined - quarantined_};
     exchange_->add(sums);
@@ -177,7 +177,7 @@ void DistributedRunner::tell_ends() {
     counts.quarantined = quarantined_ + sums[2];
     if (sums[2] != 0) {
         device_.fetch({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
-        tell_quarantined();
+        sync_quarantined();
         device_.store({Table::properties, Table::masses, Table::velocities, Table::sleep_states});
     }
     if (sums[0] == 0) return;
@@ -190,18 +190,18 @@ void DistributedRunner::tell_ends() {
     device_.store({Table::poses, Table::bounds}, Rows::ghosts);
 }
 
-void DistributedRunner::tell_quarantined() {
+void DistributedRunner::sync_quarantined() {
     State& state = *state_;
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].shares >= 0)
             continue;
-        put(said, state.id_of(row));
-        put(said, state.masses[row].shares);
+        put(sent, state.id_of(row));
+        put(sent, state.masses[row].shares);
     }
-    tell_ownerless(/* breaks */ false);
-    for (const Bytes& told : exchange_->all_gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    sync_ownerless(/* breaks */ false);
+    for (const Bytes& received : exchange_->all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
             const auto mark = from.take<float>();
             if (row == physics::NONE) continue;
@@ -214,7 +214,7 @@ void DistributedRunner::tell_quarantined() {
 
 // Joints of blocks that lose their last body, and vehicles that lose their chassis: from then on every rank has them alike, and
 // drives what is in quarantine alike, like whatever does not move. `breaks`: with bodies that break, which are known by then.
-void DistributedRunner::tell_ownerless(bool breaks) {
+void DistributedRunner::sync_ownerless(bool breaks) {
     State& state = *state_;
     if (!state.has_joints() && state.fixed().vehicles == 0) return;
     const auto stays = [&](std::uint32_t row) {
@@ -233,19 +233,19 @@ void DistributedRunner::tell_ownerless(bool breaks) {
         if (state.is_owned(chassis) && !stays(chassis)) lost.push_back({Table::vehicles, i, 1});
     }
     device_.fetch(lost);
-    Bytes said;
+    Bytes sent;
     for (const TableRange& range : lost)
         for (std::size_t k = range.first; k < range.first + range.count; ++k) {
-            put(said, range.table);
-            put(said, k);
+            put(sent, range.table);
+            put(sent, k);
             if (range.table == Table::joints)
-                put(said, state.joints[k]);
+                put(sent, state.joints[k]);
             else
-                put(said, state.vehicles[k]);
+                put(sent, state.vehicles[k]);
         }
     TableRanges found;
-    for (const Bytes& told : exchange_->all_gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    for (const Bytes& received : exchange_->all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const auto table = from.take<Table>();
             const auto k = from.take<std::size_t>();
             if (table == Table::joints)
@@ -257,17 +257,17 @@ void DistributedRunner::tell_ownerless(bool breaks) {
     device_.store(found);
 }
 
-void DistributedRunner::tell_broken() {
+void DistributedRunner::sync_broken() {
     State& state = *state_;
-    tell_ownerless(/* breaks */ true);
-    Bytes said;
+    sync_ownerless(/* breaks */ true);
+    Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (state.is_owned(row) && state.forces[row].kept < 1)
-            put(said, BrokenBody{row, state.poses[row], state.velocities[row]});
+            put(sent, BrokenBody{row, state.poses[row], state.velocities[row]});
         if (!state.is_owned(row)) state.forces[row].kept = 1;
     }
-    for (const Bytes& told : exchange_->all_gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    for (const Bytes& received : exchange_->all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const auto body = from.take<BrokenBody>();
             state.poses[body.row] = body.pose;
             state.velocities[body.row] = body.velocity;

@@ -152,11 +152,11 @@ void World::Impl::make_whole() {
         if (form) body.shape = Box{};
         put_value(out, body);
     }
-    const std::vector<Bytes> told = ranks->exchange().all_gather(out.bytes());
+    const std::vector<Bytes> received = ranks->exchange().all_gather(out.bytes());
     std::vector<Body> bodies(shared->bodies);
     for (auto& [id, body] : shared->still) bodies[id] = std::move(body);
-    for (std::size_t r = 0; r < told.size(); ++r) {
-        ByteReader in(told[r]);
+    for (std::size_t r = 0; r < received.size(); ++r) {
+        ByteReader in(received[r]);
         for (std::size_t id = r * shared->per_rank; !in.at_end(); ++id) {
             if (shared->still.contains(id)) continue;
             const auto hull = in.take<std::uint32_t>();
@@ -180,9 +180,9 @@ std::vector<BodyRecord> World::Impl::records_at_home() const {
         }
     for (const auto& [id, body] : shared->still)
         if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
-    for (const Bytes& told : ranks->exchange().all_to_all(to))
-        for (std::size_t at = 0; at < told.size(); at += sizeof(TravellingBody)) {
-            const auto body = record_at<TravellingBody>(told, at);
+    for (const Bytes& received : ranks->exchange().all_to_all(to))
+        for (std::size_t at = 0; at < received.size(); at += sizeof(TravellingBody)) {
+            const auto body = record_at<TravellingBody>(received, at);
             records.at(body.id - shared->first) = body.now;
         }
     return records;
@@ -196,12 +196,12 @@ std::uint64_t World::Impl::hash_of_shares() const {
     XXH64_reset(&hash, 0);
     Exchange& exchange = ranks->exchange();
     for (int rank = 0; rank < exchange.ranks(); ++rank) {
-        Bytes said;
+        Bytes sent;
         if (rank == exchange.rank()) {
             XXH64_update(&hash, values.data(), values.size() * sizeof(float));
-            append_record(said, hash);
+            append_record(sent, hash);
         }
-        hash = record_at<XXH64_state_t>(exchange.all_gather(said)[static_cast<std::size_t>(rank)], 0);
+        hash = record_at<XXH64_state_t>(exchange.all_gather(sent)[static_cast<std::size_t>(rank)], 0);
     }
     return XXH64_digest(&hash);
 }
@@ -211,10 +211,10 @@ Statistics World::Impl::statistics_of_shares() const {
     const std::vector<BodyRecord> records = records_at_home();
     for (std::size_t i = 0; i < records.size(); ++i)
         own.add(shared->home[i], records[i], scene.gravity, shared->planes, state.fixed().sleep_steps);
-    Bytes said;
-    append_record(said, own);
+    Bytes sent;
+    append_record(sent, own);
     BodySums all;
-    for (const Bytes& told : ranks->exchange().all_gather(said)) all.add(record_at<BodySums>(told, 0));
+    for (const Bytes& received : ranks->exchange().all_gather(sent)) all.add(record_at<BodySums>(received, 0));
     Statistics found = all.statistics();
     found.spin_limited = state.counted().spin_limited;
     add_contacts(all_contact_sums(), found);

@@ -128,7 +128,7 @@ void StateParts::for_each_contact(std::uint32_t first, std::uint32_t last, const
         const std::uint32_t row = state_.row_with(whole);
         if (row == physics::NONE) continue;
         for (std::uint32_t k = state_.first_contacts[row]; k < state_.first_contacts[row + 1]; ++k)
-            if (state_.tells_of(state_.contacts[k])) visit(whole, k);
+            if (state_.owns_contact(state_.contacts[k])) visit(whole, k);
     }
 }
 

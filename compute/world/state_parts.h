@@ -1,7 +1,7 @@
 // The tables of a world whose ranks have their shares alone (Ranks::share_out) as the bytes of put_state(), of which no rank
 // holds more than a piece.
 //
-// Piece by piece, a range of rows of one table, ranks tell the first one the records that they own. Rows are those of the whole
+// Piece by piece, a range of rows of one table, ranks send the first one the records that they own. Rows are those of the whole
 // world, in which a body's is its id.
 #pragma once
 
@@ -34,7 +34,7 @@ private:
     void put_rows(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
     void put_first_contacts(std::uint32_t first, std::uint32_t last, std::uint32_t& before, const Take& take) const;
     void put_contacts(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
-    // Calls visit(whole row, index) for the contacts that this rank tells of, by the rows that own them.
+    // Calls visit(whole row, index) for the contacts that this rank owns, by the rows that own them.
     template <class Visit>
     void for_each_contact(std::uint32_t first, std::uint32_t last, const Visit& visit) const;
     std::vector<Bytes> gathered(Bytes own) const;  // by rank; empty on all but the first

@@ -392,11 +392,11 @@ ContactSums World::Impl::all_contact_sums() const {
     }
     ranks->download_own_contacts();
     const ContactSums own = contact_sums(state);
-    Bytes said(sizeof own);
-    std::memcpy(said.data(), &own, sizeof own);
+    Bytes sent(sizeof own);
+    std::memcpy(sent.data(), &own, sizeof own);
     ContactSums all, one;
-    for (const Bytes& told : ranks->exchange().all_gather(said)) {
-        std::memcpy(&one, told.data(), sizeof one);
+    for (const Bytes& received : ranks->exchange().all_gather(sent)) {
+        std::memcpy(&one, received.data(), sizeof one);
         all = all + one;
     }
     return all;
