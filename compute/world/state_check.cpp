@@ -10,7 +10,7 @@
 #include <string>
 
 #include "compute/checkpoint.h"
-#include "compute/fields/body.h"
+#include "compute/schema/body.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/collide/triangle.h"
@@ -144,7 +144,7 @@ private:
                 "has a material that the table of surfaces lacks");
     }
 
-    static bool is_factor(float scale) { return fields::field_of(&Body::gravity_scale).range.holds(scale); }
+    static bool is_factor(float scale) { return schema::field_of(&Body::gravity_scale).range.holds(scale); }
     static bool is_pose(const physics::vec3& position, const physics::vec4& q) {
         return finite(position) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-3f;
     }

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "compute/cpu/denormal_lockstep.h"
-#include "compute/cpu/stage_record.h"
+#include "compute/replay/stage_record.h"
 #include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/compare_device.h"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "compute/fields/range_text.h"
-#include "compute/fields/settings.h"
+#include "compute/schema/range_text.h"
+#include "compute/schema/settings.h"
 #include "demos/program/option_parsing.h"
 #include "demos/program/scene_edits.h"
 
@@ -63,10 +63,10 @@ std::vector<std::size_t> counts_of(const std::string& list) {
     return counts;
 }
 
-// An option with description, range and default of a setting (compute/fields/settings.h).
+// An option with description, range and default of a setting (compute/schema/settings.h).
 template <class Bound, class Value>
 static CLI::Option* add_setting(CLI::App& command, const char* option, Bound& value, Value Settings::*setting) {
-    const auto field = fields::field_of(setting);
+    const auto field = schema::field_of(setting);
     const std::string range = text_of(field.range, field.unit);
     const char* scene = std::is_same_v<Bound, Value> ? "" : "the scene's, or ";
     return command

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "compute/fields/settings.h"
 #include "compute/parallel/threads.h"
+#include "compute/schema/settings.h"
 #include "demos/program/commit.h"
 #include "demos/program/progress.h"
 #include "demos/program/table.h"
@@ -60,7 +60,7 @@ namespace {
 
 nlohmann::ordered_json settings_of(const Settings& settings) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    fields::for_each_field<Settings>([&](const auto& field) { json[field.key] = settings.*field.member; });
+    schema::for_each_field<Settings>([&](const auto& field) { json[field.key] = settings.*field.member; });
     return json;
 }
 

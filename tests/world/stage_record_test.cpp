@@ -1,6 +1,6 @@
 // Records of stages: the same steps agree with theirs, from a scene and from a checkpoint, with any number of threads; one word
 // that differs is found at its step, stage, table and element; records that cannot be meant are refused.
-#include "compute/cpu/stage_record.h"
+#include "compute/replay/stage_record.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>

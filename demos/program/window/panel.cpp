@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "compute/fields/picture_style.h"
+#include "compute/scene_file/picture_style_fields.h"
 #include "demos/program/units.h"
 #include "demos/program/window/widgets.h"
 #include "demos/scenes/demos.h"

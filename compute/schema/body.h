@@ -1,10 +1,10 @@
 // Field tables of a body: shape, pose, material, fracture.
 #pragma once
 
-#include "compute/fields/field.h"
 #include "compute/scene.h"
+#include "compute/schema/field.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 template <>
 inline constexpr auto words<Motion> = std::array{"dynamic", "fixed", "kinematic"};
@@ -128,4 +128,4 @@ inline constexpr auto table<Body> = std::apply(
     },
     material_fields<Body>);
 
-}  // namespace scree::fields
+}  // namespace scree::schema

@@ -2,10 +2,10 @@
 // limits or springs have the unit "m" or "rad", which selects it.
 #pragma once
 
-#include "compute/fields/field.h"
 #include "compute/scene.h"
+#include "compute/schema/field.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 constexpr double half_turn = 3.1415927;  // rad
 constexpr Range any_force = between(0, static_cast<double>(unlimited));
@@ -110,4 +110,4 @@ inline constexpr auto table<JointPlacement> =
                  .required(),
              field("axis", &JointPlacement::axis, "The joint's x axis in world coordinates, of any length but 0; with anchor"));
 
-}  // namespace scree::fields
+}  // namespace scree::schema

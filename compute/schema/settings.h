@@ -1,10 +1,10 @@
 // Field table of the settings, from which command line options take range and text.
 #pragma once
 
-#include "compute/fields/field.h"
+#include "compute/schema/field.h"
 #include "compute/settings.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 template <>
 inline constexpr auto table<Settings> = table_of(
@@ -32,4 +32,4 @@ inline constexpr auto table<Settings> = table_of(
     field("pairs_at_first", &Settings::pairs_at_first, "Initial capacity for pairs; 0: from the number of bodies"),
     field("contacts_at_first", &Settings::contacts_at_first, "Initial capacity for contacts; 0: from the number of bodies"));
 
-}  // namespace scree::fields
+}  // namespace scree::schema

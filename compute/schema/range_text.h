@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "compute/fields/field.h"
+#include "compute/schema/field.h"
 
 namespace scree {
 
@@ -25,13 +25,13 @@ inline std::string plain(double limit) {
 }
 
 // "between 0 and 100 m"
-inline std::string text_of(const fields::Range& range, std::string_view unit) {
+inline std::string text_of(const schema::Range& range, std::string_view unit) {
     const std::string of_unit = unit.empty() ? "" : " " + std::string(unit);
     const std::string low = plain(range.low), high = plain(range.high);
-    if (range.low <= -fields::largest && range.high >= fields::largest) return "finite";
-    if (range.low == 0 && range.above_low && range.high >= fields::largest)
+    if (range.low <= -schema::largest && range.high >= schema::largest) return "finite";
+    if (range.low == 0 && range.above_low && range.high >= schema::largest)
         return "positive" + (unit.empty() ? "" : "," + of_unit);
-    if (range.high >= fields::largest) return (range.above_low ? "above " : "at least ") + low + of_unit;
+    if (range.high >= schema::largest) return (range.above_low ? "above " : "at least ") + low + of_unit;
     if (range.low == -range.high) return "within " + high + of_unit + " of 0";
     if (!range.above_low && !range.below_high) return "between " + low + " and " + high + of_unit;
     return (range.above_low ? "above " : "at least ") + low + (range.below_high ? " and below " : " and at most ") + high +
@@ -39,7 +39,7 @@ inline std::string text_of(const fields::Range& range, std::string_view unit) {
 }
 
 template <class Number>
-std::string out_of_range(Number value, const fields::Range& range, std::string_view unit) {
+std::string out_of_range(Number value, const schema::Range& range, std::string_view unit) {
     std::string is;
     if constexpr (std::is_same_v<Number, float>)
         is = text_of(value);

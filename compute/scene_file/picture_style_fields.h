@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "compute/fields/field.h"
 #include "compute/scene_file/picture_style.h"
+#include "compute/schema/field.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 template <>
 inline constexpr auto words<ShownQuantity> =
@@ -35,4 +35,4 @@ inline constexpr auto table<PictureStyle> = table_of(
     field("sun_elevation", &PictureStyle::sun_elevation, between(3, 90), "degrees",
           "Height of the sun above the horizon; 0: where that sky has it, whatever sun_azimuth"));
 
-}  // namespace scree::fields
+}  // namespace scree::schema

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <type_traits>
 
-namespace scree::fields {
+namespace scree::schema {
 
 constexpr double largest = std::numeric_limits<float>::max();
 constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -140,4 +140,4 @@ constexpr Field<Struct, Member> field_of(Member Struct::*member) {
     return found;
 }
 
-}  // namespace scree::fields
+}  // namespace scree::schema

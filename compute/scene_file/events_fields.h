@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "compute/fields/field.h"
 #include "compute/scene_file/events.h"
+#include "compute/schema/field.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 template <>
 inline constexpr auto alternatives<EventAction> =
@@ -58,4 +58,4 @@ inline constexpr auto table<TimedEvent> =
              field("time", &TimedEvent::time, between(0, 1e6), "s", "Moment; before the step whose start is nearest").required(),
              field("action", &TimedEvent::action, "What happens").required());
 
-}  // namespace scree::fields
+}  // namespace scree::schema

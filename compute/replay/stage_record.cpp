@@ -1,5 +1,5 @@
 // Records of what every stage wrote.
-#include "compute/cpu/stage_record.h"
+#include "compute/replay/stage_record.h"
 
 #include <xxhash.h>
 
@@ -17,7 +17,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::string_view kind = "scree stages 1\n";
+constexpr std::string_view record_kind = "scree stages 1\n";
 
 // What is known before the first step, and what a record begins with.
 struct RecordHead {
@@ -80,7 +80,7 @@ std::vector<std::byte> record_stages(const Scene& scene, const Settings& setting
     std::vector<std::byte> memory;
     memory.reserve(1u << 20u);
     ByteWriter out(std::move(memory));
-    out.put_bytes(std::as_bytes(std::span(kind)));
+    out.put_bytes(std::as_bytes(std::span(record_kind)));
     out.put(stepping.head(steps));
     stepping.run(steps, progress, [&](const Compared& compared) {
         out.put_text(stepping.result.stage);
@@ -100,8 +100,8 @@ LockstepResult compare_with_record(std::span<const std::byte> record, const Scen
     Stepping stepping(scene, settings, threads, from);
     ByteReader in(record);
     try {
-        const auto found = in.take_bytes(kind.size());
-        if (!std::equal(found.begin(), found.end(), std::as_bytes(std::span(kind)).begin()))
+        const auto found = in.take_bytes(record_kind.size());
+        if (!std::equal(found.begin(), found.end(), std::as_bytes(std::span(record_kind)).begin()))
             refuse("is none: its head says otherwise");
         const auto head = in.take<RecordHead>(), own = stepping.head(steps);
         if (head.tables != own.tables) refuse("was written by a version of scree with other tables");

@@ -1,10 +1,10 @@
 // Field tables of vehicles.
 #pragma once
 
-#include "compute/fields/field.h"
 #include "compute/scene.h"
+#include "compute/schema/field.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 constexpr Range any_torque = between(0, 1e9);
 constexpr Range any_speed = between(0.01, 1e3);
@@ -70,4 +70,4 @@ inline constexpr auto table<Vehicle> = table_of(
     field("by_route", &Vehicle::by_route, "Whether the vehicle follows its route, if any"),
     field("next", &Vehicle::next, "Index of the next way point"));
 
-}  // namespace scree::fields
+}  // namespace scree::schema

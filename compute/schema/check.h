@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
-#include "compute/fields/field.h"
-#include "compute/fields/range_text.h"
+#include "compute/schema/field.h"
+#include "compute/schema/range_text.h"
 
-namespace scree::fields {
+namespace scree::schema {
 
 // Kind of axis of a field, which selects between the two units of "m or rad".
 enum class Direction { either, along, about };
@@ -116,4 +116,4 @@ void check_fields(const At& at, Struct& checked, const Rules& rules, Direction d
     rules(at, checked, direction);
 }
 
-}  // namespace scree::fields
+}  // namespace scree::schema
