@@ -53,7 +53,7 @@ TEST_CASE("a contact under a load gives way in proportion to the load and to the
         }
 }
 
-TEST_CASE("columns of ten careless boxes stand under a hundred times their mass", "[laden]") {
+TEST_CASE("columns of ten boxes placed with 2 mm and 0.3 degrees of error stand under a hundred times their mass", "[laden]") {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         World world(tests::laden_column(10, 1, 1, 100, seed), awake(), 1);
         world.step(1200);
