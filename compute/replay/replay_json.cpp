@@ -282,16 +282,6 @@ TimedAct timed_act_of(const json& value, const Place& place) {
     return timed;
 }
 
-json parsed(std::string_view text) {
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
-}
-
 void read_settings(const json& value, const Place& root, Input& input) {
     std::size_t seed = 1, substeps = static_cast<std::size_t>(Settings{}.substeps);
     optional(value, root, "bodies", input.bodies);

@@ -165,16 +165,8 @@ bool refers_to_bodies(const json& rest) {
 
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     SceneDocument document;
-    json rest;
     const TakeBody take = [&](Body body) { document.scene.bodies.push_back(std::move(body)); };
-    try {
-        rest = json::parse(text, Listener(take, most_bodies));
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
-    read_around(rest, document);
+    read_around(parsed(text, Listener(take, most_bodies)), document);
     return document;
 }
 

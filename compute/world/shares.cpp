@@ -6,10 +6,9 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
+#include "compute/distributed/packing.h"
 #include "compute/world/scene_bytes.h"
 #include "compute/world/share_start.h"
 #include "compute/world/world_impl.h"
@@ -25,20 +24,6 @@ struct TravellingBody {
     std::uint32_t id = 0;
     BodyRecord now;
 };
-
-template <class Record>
-void append_record(Bytes& bytes, const Record& record) {
-    static_assert(std::is_trivially_copyable_v<Record>);
-    const std::size_t at = bytes.size();
-    bytes.resize(at + sizeof record);
-    std::memcpy(&bytes[at], &record, sizeof record);
-}
-template <class Record>
-Record record_at(const Bytes& bytes, std::size_t at) {
-    Record record;
-    std::memcpy(static_cast<void*>(&record), &bytes.at(at), sizeof record);
-    return record;
-}
 
 const HullForm* form_of(const Body& body) {
     const Hull* hull = std::get_if<Hull>(&body.shape);
@@ -176,13 +161,13 @@ std::vector<BodyRecord> World::Impl::records_at_home() const {
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row)) {
             const std::uint32_t id = state.id_of(row);
-            append_record(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
+            scree::put(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
         }
     for (const auto& [id, body] : shared->still)
         if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
     for (const Bytes& received : ranks->exchange().all_to_all(to))
-        for (std::size_t at = 0; at < received.size(); at += sizeof(TravellingBody)) {
-            const auto body = record_at<TravellingBody>(received, at);
+        for (Unpacker from(received); from.has_more();) {
+            const auto body = from.take<TravellingBody>();
             records.at(body.id - shared->first) = body.now;
         }
     return records;
@@ -199,9 +184,9 @@ std::uint64_t World::Impl::hash_of_shares() const {
         Bytes sent;
         if (rank == exchange.rank()) {
             XXH64_update(&hash, values.data(), values.size() * sizeof(float));
-            append_record(sent, hash);
+            scree::put(sent, hash);
         }
-        hash = record_at<XXH64_state_t>(exchange.all_gather(sent)[static_cast<std::size_t>(rank)], 0);
+        Unpacker(exchange.all_gather(sent)[static_cast<std::size_t>(rank)]).take(hash);
     }
     return XXH64_digest(&hash);
 }
@@ -212,9 +197,9 @@ Statistics World::Impl::statistics_of_shares() const {
     for (std::size_t i = 0; i < records.size(); ++i)
         own.add(shared->home[i], records[i], scene.gravity, shared->planes, state.fixed().sleep_steps);
     Bytes sent;
-    append_record(sent, own);
+    scree::put(sent, own);
     BodySums all;
-    for (const Bytes& received : ranks->exchange().all_gather(sent)) all.add(record_at<BodySums>(received, 0));
+    for (const Bytes& received : ranks->exchange().all_gather(sent)) all.add(Unpacker(received).take<BodySums>());
     Statistics found = all.statistics();
     found.spin_limited = state.counted().spin_limited;
     add_contacts(all_contact_sums(), found);

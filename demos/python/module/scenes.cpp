@@ -23,13 +23,7 @@ namespace scree::python {
 using namespace json_reading;
 
 nlohmann::json json_of(const std::string& text) {
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
+    return parsed(text);
 }
 
 py::dict settings_dict(const Settings& settings) {
