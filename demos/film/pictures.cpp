@@ -18,7 +18,7 @@
 #include "demos/film/motion_blur.h"
 #include "demos/film/rank_parts.h"
 #include "demos/film/style.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "host/canvas/canvas.h"
 #include "host/canvas/overlay.h"
 #include "host/files/file.h"

@@ -6,7 +6,7 @@
 
 #include "compute/scene_file/picture_style.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "host/canvas/canvas.h"
 #include "host/canvas/colors.h"
 

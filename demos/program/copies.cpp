@@ -11,7 +11,7 @@
 #include "compute/schema/body.h"
 #include "compute/schema/range_text.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "shaders/physics/collide/grid.h"

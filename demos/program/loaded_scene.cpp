@@ -16,7 +16,7 @@
 #include "demos/program/backend.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "demos/program/scene_edits.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"

@@ -4,7 +4,7 @@
 #include "compute/device/make_device_runner.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
-#include "tests/world/lasting_probe.h"
+#include "tests/world/states/lasting_probe.h"
 
 using namespace scree;
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "compute/scene_file/picture_style_fields.h"
-#include "demos/program/units.h"
+#include "demos/program/options/units.h"
 #include "demos/program/window/widgets.h"
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"

@@ -7,7 +7,7 @@
 #include "compute/scene/shape_geometry.h"
 #include "compute/schema/body.h"
 #include "compute/schema/joint.h"
-#include "demos/program/units.h"
+#include "demos/program/options/units.h"
 #include "demos/program/window/panel.h"
 #include "demos/program/window/widgets.h"
 
