@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +17,7 @@ class Threads;      // compute/parallel/threads.h
 struct TableRange;  // compute/tables/table_ranges.h
 struct RayTask;     // compute/scene/ray_task.h
 class Timeline;     // compute/timeline.h
+class Ranks;        // compute/distributed/ranks.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 
@@ -30,32 +30,8 @@ public:
 
     virtual const Threads& threads() const = 0;  // of the host, for work between steps
 
-    // Processors with a copy of the world each, which share its bodies and take every decision alike
-    // (compute/distributed); all of them call the same functions in the same order.
-    virtual int ranks() const { return 1; }
-    virtual int rank() const { return 0; }  // of this one
-    // Says to[r] to each of them; returns by rank what was said to this one.
-    virtual std::vector<std::vector<std::byte>> swap(const std::vector<std::vector<std::byte>>& to) const { return to; }
-    // What each of them says, by rank.
-    std::vector<std::vector<std::byte>> gather(const std::vector<std::byte>& said) const {
-        return swap(std::vector<std::vector<std::byte>>(static_cast<std::size_t>(ranks()), said));
-    }
-    // Brings the contacts that this rank alone has to where the host reads them.
-    virtual void download_own_contacts() {}
-    // Likewise all that it has of a world that is shared out.
-    virtual void download_share() {}
-    // Between steps: whether each rank can do with its share of the attached tables, and dropping and getting back the rest.
-    virtual bool can_share_out() const { return false; }
-    virtual void share_out() {}
-    virtual void make_whole() {}
-    // Instead of attach(), of a world that is shared out from its start: whether ranks can begin so; from the places of its
-    // dynamic bodies on the Morton curve (compute/tables/memory_order.h), the first place of every rank but the first; and taking
-    // over a state with rows of what every rank has, and the owners by id. It makes rows for this rank's own bodies, by their
-    // ids, and then calls fill().
-    virtual bool can_begin_shared() const { return false; }
-    virtual std::vector<std::uint64_t> borders_of(std::vector<std::uint64_t> /* places */) { return {}; }
-    virtual void attach_share(State& /* state */, std::vector<int> /* owners */, std::span<const std::uint32_t> /* own */,
-                              const std::function<void()>& /* fill */) {}
+    // What else a runner does that shares its world with others (make_distributed_runner); null: the world is this one's alone.
+    virtual Ranks* ranks() { return nullptr; }
 
     virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 

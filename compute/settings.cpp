@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "compute/fields/check.h"
-#include "compute/fields/settings.h"
+#include "compute/schema/check.h"
+#include "compute/schema/settings.h"
 
 namespace scree {
 
@@ -23,7 +23,7 @@ struct SettingName {
 }  // namespace
 
 Settings checked(const Settings& settings) {
-    fields::check_fields(SettingName(), settings);
+    schema::check_fields(SettingName(), settings);
     return settings;
 }
 

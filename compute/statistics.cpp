@@ -99,7 +99,7 @@ ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy) 
         const physics::Contact& contact = state.contacts[i];
         if (is_gone(state, contact.a) || is_gone(state, contact.b)) continue;
         if (copy && state.copy_of(contact.a) != *copy) continue;
-        if (!state.presence.empty() && !state.tells_of(contact)) continue;
+        if (!state.presence.empty() && !state.owns_contact(contact)) continue;
         ++sums.manifolds;
         if (has_slid_off(state, contact, state.impulses[i])) continue;
         const physics::uint count = contact.count;

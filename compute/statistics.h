@@ -15,7 +15,7 @@ struct ContactSums {
     double depth = 0;                                          // of these, m, in all
     double greatest = 0, greatest_resting = 0;                 // Statistics::penetration_max, penetration_resting
 };
-// Over the contacts in the tables, if ranks share the world over those that this one tells of.
+// Over the contacts in the tables, if ranks share the world over those that this one owns.
 ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy = std::nullopt);
 ContactSums operator+(const ContactSums& a, const ContactSums& b);
 

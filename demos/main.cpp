@@ -11,11 +11,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "demos/program/commands.h"
+#include "demos/program/commands/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/help_formatter.h"
 #include "demos/program/interrupt.h"
+#include "demos/program/options/help_formatter.h"
 #include "host/device_error.h"
 #include "host/files/partial_file.h"
 

@@ -97,7 +97,7 @@ void move(State& state, std::size_t i) {
 
 }  // namespace
 
-void feel_gravities(State& state) {
+void find_parameters_of_copies(State& state) {
     if (state.gravities.empty()) return;
     state.scratch.parameters_of_copies.clear();
     for (const physics::uvec4& gravity : state.gravities) {
@@ -112,9 +112,9 @@ void begin_step(State& state, const Threads& threads, std::uint32_t) {
     std::ranges::fill(state.pair_counts(), 0u);
     std::ranges::fill(state.slot_counts(), 0u);
     std::ranges::fill(state.copy_states, 0u);
-    feel_gravities(state);
+    find_parameters_of_copies(state);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        state.forces[i] = physics::gravity_forces(state.properties[i], felt_by(state, static_cast<std::uint32_t>(i)));
+        state.forces[i] = physics::gravity_forces(state.properties[i], parameters_of(state, static_cast<std::uint32_t>(i)));
     });
     if (state.fixed().wake_all)
         for (physics::uint& rest : state.sleep_states) rest = physics::roused(rest, state.fixed().sleep_steps);

@@ -18,8 +18,8 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
 // Read only where restitution is possible. `debt`: the contact's part of its bodies' debts.
 physics::ImpactContext around_impact(const State& state, const physics::Constraint& c, float debt = 0) {
     if (!(c.restitution > 0)) return physics::no_impact_context();
-    physics::ImpactContext around =
-        physics::impact_context(state.forces[c.a], state.forces[c.b], state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
+    physics::ImpactContext around = physics::impact_context(state.forces[c.a], state.forces[c.b], state.masses[c.a],
+                                                            state.masses[c.b], parameters_of(state, c.a));
     around.debt = debt;
     return around;
 }
@@ -29,10 +29,10 @@ physics::Surface surface_on(const State& state, const physics::BodyProperties& r
     return surface == 0 ? physics::plain_surface(row) : state.surfaces[surface - 1];
 }
 
-void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float weight,
-              float normal_impulse) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, weight, normal_impulse);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, weight, normal_impulse);
+void write_deltas(State& state, const physics::Constraint& c, const physics::VelocityPair& delta, float weight,
+                  float normal_impulse) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(delta.a, weight, normal_impulse);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(delta.b, weight, normal_impulse);
 }
 
 // Each body's quiet steps, for the other's sleep.
@@ -68,7 +68,7 @@ void prepare_constraint(State& state, std::size_t i) {
     const physics::Contact& contact = state.contacts[i];
     const std::uint32_t a = c.a, b = c.b;
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
-    c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
+    c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, parameters_of(state, a));
     if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
         c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
                                    state.poses[b].orientation, p);
@@ -171,9 +171,9 @@ void hand_out_first(State& state, std::size_t first) {
     for_each_of_block(state, first, [&](std::size_t i, bool is_last) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Impulse impulse = state.impulse(i);
-        const physics::ContactShare share =
-            physics::first_share(c, impulse, velocities_of(state, c), state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
-        hand_out(state, c, share.change, weight_of_block(share.weight, is_last, of_block), impulse.normal_sum);
+        const physics::ContactShare share = physics::first_share(c, impulse, velocities_of(state, c), state.masses[c.a],
+                                                                 state.masses[c.b], parameters_of(state, c.a));
+        write_deltas(state, c, share.change, weight_of_block(share.weight, is_last, of_block), impulse.normal_sum);
     });
 }
 
@@ -201,9 +201,9 @@ void solve_block(State& state, std::size_t first) {
     for_each_of_block(state, first, [&](std::size_t i, bool) {
         const physics::Constraint& c = state.constraints[i];
         const physics::PassOutcome after =
-            physics::biased_pass(c, state.impulse(i), v, bodies, around_impact(state, c), felt_by(state, c.a));
+            physics::biased_pass(c, state.impulse(i), v, bodies, around_impact(state, c), parameters_of(state, c.a));
         state.keep_impulse(i, after.impulse);
-        hand_out(state, c, after.share, after.weight, after.passed_on);
+        write_deltas(state, c, after.share, after.weight, after.passed_on);
         v = after.velocity;
     });
 }
@@ -222,11 +222,11 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
         const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], bodies.a,
                                                   state.impact_debts[c.b], state.forces[c.b], bodies.b);
         const physics::PassOutcome after = physics::relax_pass(c, biased, v, bodies, around_impact(state, c, debt),
-                                                               (pass & physics::PASS_LAST) != 0, felt_by(state, c.a));
+                                                               (pass & physics::PASS_LAST) != 0, parameters_of(state, c.a));
         if ((pass & physics::PASS_SUMS) != 0)
             state.carried[i] = (pass & physics::PASS_FIRST) != 0 ? after.borne : state.carried[i] + after.borne;
         state.keep_impulse(i, after.impulse);
-        hand_out(state, c, after.share, weight_of_block(after.weight, is_last, of_block), after.passed_on);
+        write_deltas(state, c, after.share, weight_of_block(after.weight, is_last, of_block), after.passed_on);
         v = after.velocity;
     });
 }

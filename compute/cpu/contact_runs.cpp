@@ -16,22 +16,22 @@ namespace scree::reference {
 namespace {
 
 // Contacts that lanes take together, because they skip the same work: as many points, of round bodies or not, with the same
-// Bearing. Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
+// load. Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
 constexpr std::size_t lane_classes = 24, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
 bool is_of_block(std::uint8_t solver_class) {
     return solver_class % inner_classes == lane_classes;
 }
 
-enum class Bearing : std::uint8_t { bears, near, apart };
-std::size_t lane_class(bool round, Bearing bearing, std::uint32_t points) {
-    return 4 * (3 * std::size_t{round} + static_cast<std::size_t>(bearing)) + (4 - points);
+enum class LoadClass : std::uint8_t { loaded, close, separated };
+std::size_t lane_class(bool round, LoadClass load, std::uint32_t points) {
+    return 4 * (3 * std::size_t{round} + static_cast<std::size_t>(load)) + (4 - points);
 }
-// `apart`: the gap beyond which a contact most likely stays unloaded, m.
-Bearing bearing_of(const physics::Contact& contact, bool bears, float apart) {
-    if (bears) return Bearing::bears;
+// `separation`: the gap beyond which a contact most likely stays unloaded, m.
+LoadClass load_class(const physics::Contact& contact, bool loaded, float separation) {
+    if (loaded) return LoadClass::loaded;
     float least = contact.points[0].w;
     for (std::uint32_t k = 1; k < contact.count; ++k) least = std::min(least, contact.points[k].w);
-    return least > apart ? Bearing::apart : Bearing::near;
+    return least > separation ? LoadClass::separated : LoadClass::close;
 }
 bool are_round(const State& state, std::uint32_t a, std::uint32_t b) {
     return physics::is_round(state.properties[a]) && physics::is_round(state.properties[b]);
@@ -71,13 +71,14 @@ bool is_solved(const State& state, std::size_t contact) {
 }
 
 SolverClasses::SolverClasses(const State& state)
-    : state_(state), apart_(4 * state.fixed().h * physics::fall_speed(state.fixed())) {}
+    : state_(state), separation_(4 * state.fixed().h * physics::fall_speed(state.fixed())) {}
 
-std::uint8_t SolverClasses::of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
+std::uint8_t SolverClasses::of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool loaded,
                                bool of_block) const {
     if (of_block) return class_among(state_, a, b, lane_classes);
-    return class_among(state_, a, b,
-                       lane_class(are_round(state_, contact.a, contact.b), bearing_of(contact, bears, apart_), contact.count));
+    return class_among(
+        state_, a, b,
+        lane_class(are_round(state_, contact.a, contact.b), load_class(contact, loaded, separation_), contact.count));
 }
 
 std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
@@ -85,10 +86,10 @@ std::uint8_t SolverClasses::of_warm_started(std::size_t index) const {
     const physics::Pair& pair = state_.pairs[state_.contact_pairs[index]];
     const bool persists = pair.pair_type == physics::PAIR_PERSISTENT;
     // Persistent contacts bore an impulse, and their bodies are not both round (may_persist).
-    const bool bears = persists || (pair.previous != physics::NONE && state_.impulses_before[pair.previous].normal_sum > 0);
+    const bool loaded = persists || (pair.previous != physics::NONE && state_.impulses_before[pair.previous].normal_sum > 0);
     return class_among(
         state_, state_.body_of(pair.a), state_.body_of(pair.b),
-        lane_class(!persists && are_round(state_, pair.a, pair.b), bearing_of(contact, bears, apart_), contact.count));
+        lane_class(!persists && are_round(state_, pair.a, pair.b), load_class(contact, loaded, separation_), contact.count));
 }
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {

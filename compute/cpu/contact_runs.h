@@ -20,13 +20,14 @@ class SolverClasses {
 public:
     explicit SolverClasses(const State& state);
     // Of a contact of the bodies a and b.
-    std::uint8_t of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears, bool of_block) const;
+    std::uint8_t of(std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool loaded, bool of_block) const;
     // Of one that lanes warm-start. The impulse that it will bear is not known yet: that of the last step decides.
     std::uint8_t of_warm_started(std::size_t contact) const;
 
 private:
     const State& state_;
-    float apart_;  // m: more than what falls from rest closes in two substeps; contacts with a wider gap mostly stay unloaded
+    float
+        separation_;  // m: more than what falls from rest closes in two substeps; contacts with a wider gap mostly stay unloaded
 };
 
 // Sorts contacts_to_solve by class and finds its runs.

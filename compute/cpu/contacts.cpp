@@ -31,10 +31,10 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
     prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
     if (physics::rebounds_across(physics::contact_impact_of(prepared.impulse))) {
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-        const physics::Parameters felt = felt_by(state, a);
+        const physics::Parameters parameters = parameters_of(state, a);
         prepared.impulse = physics::settled_impact(
-            prepared.impulse, physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
-            physics::constraint_of(before, ta, tb, slot_a, slot_b, felt), {state.velocities[a], state.velocities[b]});
+            prepared.impulse, physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, parameters), was,
+            physics::constraint_of(before, ta, tb, slot_a, slot_b, parameters), {state.velocities[a], state.velocities[b]});
     }
     return prepared;
 }

@@ -18,7 +18,7 @@ void apply_fields(State& state, const Threads& threads, std::uint32_t) {
             wet ? state.immersions[state.id_of(static_cast<std::uint32_t>(i))] : physics::no_immersion();
         state.forces[i] = physics::with_fields(state.forces[i], body, immersion, state.poses[i], state.velocities[i],
                                                physics::mass_in_world(body, state.poses[i].orientation),
-                                               felt_by(state, static_cast<std::uint32_t>(i)));
+                                               parameters_of(state, static_cast<std::uint32_t>(i)));
     });
 }
 

@@ -75,7 +75,7 @@ public:
         });
     }
     // Writes them to the bodies' slots.
-    void hand_out(float weight, bool with_normal_impulse) {
+    void write_deltas(float weight, bool with_normal_impulse) {
         for (const BlockBody& body : members_)
             if (body.slot != physics::NONE)
                 state_.slots[body.slot] =

@@ -237,7 +237,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.take_rotor_speeds();
         block.gather_warm_start();
-        block.hand_out(1, true);
+        block.write_deltas(1, true);
     };
     pass_over_blocks(state, threads, begin, finish, [](EqualBlocks&) { return false; });
 }
@@ -248,7 +248,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
         block.solve(true);
         block.gather(/* warms */ false);
         block.for_each_whole([](Joint& joint) { JointBlock::commit(joint, /* warms */ false); });
-        block.hand_out(0, false);
+        block.write_deltas(0, false);
     };
     pass_over_blocks(state, threads, begin, finish, [&](EqualBlocks& equal) { return equal.solve(state); });
 }
@@ -266,7 +266,7 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
             if (struck) JointBlock::tear(joint);
         });
         block.note_pressing();
-        block.hand_out(1, true);
+        block.write_deltas(1, true);
         if (last) tell_quiet(block, state);
     };
     const auto finish = [&](JointBlock& block) {

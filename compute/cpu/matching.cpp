@@ -64,7 +64,7 @@ bool may_persist(const State& state, const physics::Pair& pair) {
     return pair.pair_type != physics::PAIR_INACTIVE && pair.previous != physics::NONE &&
            physics::may_persist(state.impulse_before(pair.previous), state.scratch.row_kinds[pair.a] & ~still_kind,
                                 state.scratch.row_kinds[pair.b] & ~still_kind) &&
-           physics::has_weight(felt_by(state, state.body_of(pair.a)));
+           physics::has_weight(parameters_of(state, state.body_of(pair.a)));
 }
 bool persists(const State& state, const physics::Pair& pair) {
     const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);

@@ -58,7 +58,7 @@ void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
     const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
     physics::Pose pa = state.poses[a], pb = state.poses[b];
     const physics::Margin margin =
-        physics::margin_of(ta, va, tb, vb, pb.position - pa.position, felt_by(state, state.pairs[index].a));
+        physics::margin_of(ta, va, tb, vb, pb.position - pa.position, parameters_of(state, state.pairs[index].a));
     if (margin.closing < 0) {
         state.point_counts[index] = 0;
         return;

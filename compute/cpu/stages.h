@@ -16,10 +16,10 @@ struct WideTables;
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 
 // The parameters with the gravity of a row's copy; of every step anew.
-inline const physics::Parameters& felt_by(const State& state, std::uint32_t row) {
+inline const physics::Parameters& parameters_of(const State& state, std::uint32_t row) {
     return state.gravities.empty() ? state.fixed() : state.scratch.parameters_of_copies[state.copy_of(row)];
 }
-void feel_gravities(State& state);
+void find_parameters_of_copies(State& state);
 
 // Takes places at the end of a list that all threads append to.
 inline std::uint32_t taken(const Threads& threads, std::uint32_t& end, std::uint32_t places = 1) {

@@ -30,7 +30,7 @@ bool wakes(State& state, const physics::Pair& pair, std::uint32_t sleeper, std::
     const bool touched = pair.previous != physics::NONE;
     return physics::wakes(restless, approach, touched ? physics::normal_impulse(state.impulse_before(pair.previous)) : 0,
                           touched ? state.contacts_before[pair.previous].load : 0, state.properties[sleeper],
-                          felt_by(state, sleeper));
+                          parameters_of(state, sleeper));
 }
 
 // Whether `owner` owns a pair with `other` that has contact points.
@@ -75,7 +75,7 @@ void wake_unsupported(State& state, const Threads& threads, std::uint32_t) {
             const std::uint32_t sleeper = state.body_of(stirred(state, contact.a) ? contact.b : contact.a);
             if (!slept(state, sleeper)) continue;
             if (owner_touches(state, contact.a, contact.b) || owner_touches(state, contact.b, contact.a)) continue;
-            if (physics::load_changed(0, contact.load, state.properties[sleeper], felt_by(state, sleeper)))
+            if (physics::load_changed(0, contact.load, state.properties[sleeper], parameters_of(state, sleeper)))
                 raise(state, sleeper, physics::WOKEN);
         }
     });

@@ -22,7 +22,7 @@ void append_rows(TableRanges& ranges, Table table, const std::vector<std::uint32
     }
 }
 
-// Of rows, what only their owners tell: ghosts are sent the rest, at the start of each step.
+// Of rows, what only their owners send: ghosts are sent the rest, at the start of each step.
 std::vector<Table> tables_without_ghosts() {
     std::vector<Table> found;
     for (const Table table : row_tables)
@@ -99,7 +99,7 @@ void DeviceSide::fetch(const TableRanges& ranges) {
     }
 }
 
-// Marks are on the device alone, so that no rank tells them to another or saves them.
+// Marks are on the device alone, so that no rank sends or saves them.
 void DeviceSide::store(const TableRanges& ranges) {
     if (!device_ || ranges.empty()) return;
     const auto with_marks = [&](auto change) {

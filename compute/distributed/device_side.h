@@ -1,4 +1,4 @@
-// The device of a rank and the host's tables, through which ranks tell each other of bodies: only rows near borders pass between
+// The device of a rank and the host's tables, through which ranks exchange bodies: only rows near borders pass between
 // the two in a substep.
 #pragma once
 

@@ -44,10 +44,6 @@ void DistributedRunner::attach(State& state) {
     adapt();
 }
 
-bool DistributedRunner::can_begin_shared() const {
-    return exchange_->ranks() > 1;
-}
-
 std::vector<std::uint64_t> DistributedRunner::borders_of(std::vector<std::uint64_t> places) {
     return ownership_.divide(std::move(places), exchange_->ranks());
 }
@@ -83,34 +79,34 @@ void DistributedRunner::adapt() {
     planned_features_ = state_->features();
     plan_ = plan(planned_substeps_, planned_features_);
     clock_ = StageClock(plan_);
-    before_.assign(plan_.size(), Talk::none);
+    before_.assign(plan_.size(), SyncPoint::none);
     after_ = before_;
     bool met = false;  // the ghosts of this step
     for (std::size_t i = 0; i < plan_.size(); ++i) {
         const std::string& name = plan_[i].name;
         if (!met && (name == "pose_parts" || name == "compute_bounds")) {
-            before_[i] = Talk::ghosts;
+            before_[i] = SyncPoint::ghosts;
             met = true;
         }
-        if (name == "compute_bounds") after_[i] = Talk::flags;
-        if (name == "scan_pairs_spine" || name == "scan_contacts_spine") after_[i] = Talk::room;
-        if (starts_with(name, "predict_impacts")) after_[i] = Talk::struck;
-        if (name == "propagate_wake") before_[i] = Talk::wake;
-        if (name == "propagate_wake" && plan_[i].pass == 2) after_[i] = Talk::wake;
-        if (name == "begin_substep") after_[i] = Talk::velocities;
-        if (name == "move_bodies") after_[i] = Talk::motion;
-        if (name == "end_step") after_[i] = Talk::ends;
-        if (starts_with(name, "find_impacts") && !planned_features_.joints) after_[i] = Talk::stops;
-        if (name == "share_stops" && plan_[i].pass % 2 == 1) after_[i] = Talk::stops;
-        if (name == "find_broken") after_[i] = Talk::kept;
-        if (name == "break_bodies") before_[i] = Talk::broken;
+        if (name == "compute_bounds") after_[i] = SyncPoint::flags;
+        if (name == "scan_pairs_spine" || name == "scan_contacts_spine") after_[i] = SyncPoint::room;
+        if (starts_with(name, "predict_impacts")) after_[i] = SyncPoint::struck;
+        if (name == "propagate_wake") before_[i] = SyncPoint::wake;
+        if (name == "propagate_wake" && plan_[i].pass == 2) after_[i] = SyncPoint::wake;
+        if (name == "begin_substep") after_[i] = SyncPoint::velocities;
+        if (name == "move_bodies") after_[i] = SyncPoint::motion;
+        if (name == "end_step") after_[i] = SyncPoint::ends;
+        if (starts_with(name, "find_impacts") && !planned_features_.joints) after_[i] = SyncPoint::stops;
+        if (name == "share_stops" && plan_[i].pass % 2 == 1) after_[i] = SyncPoint::stops;
+        if (name == "find_broken") after_[i] = SyncPoint::kept;
+        if (name == "break_bodies") before_[i] = SyncPoint::broken;
     }
 }
 
 bool DistributedRunner::can_share_out() const {
     const bool was_read = gathered_[static_cast<std::size_t>(Table::contacts)];
     const bool is_fresh = state_->presence.empty() && state_->counted().contacts == 0;
-    return exchange_->ranks() > 1 && !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
+    return !was_read && (is_fresh || !state_->presence.empty()) && Share::can_be_made(*state_);
 }
 
 void DistributedRunner::share_out() {
@@ -165,14 +161,14 @@ bool DistributedRunner::step() {
     if (timed) clock_.begin_step();
     const Watch watch(threads_);
     for (std::size_t i = 0; i < plan_.size();) {
-        if (!say(before_[i])) return false;
+        if (!sync(before_[i])) return false;
         if (device_) {
             i = run_on_device(i);
         } else {
             run(i++);
         }
-        if (!say(after_[i - 1])) return false;
-        const bool travels = after_[i - 1] == Talk::velocities || after_[i - 1] == Talk::motion;
+        if (!sync(after_[i - 1])) return false;
+        const bool travels = after_[i - 1] == SyncPoint::velocities || after_[i - 1] == SyncPoint::motion;
         if (travels && !device_ && exchange_->ranks() > 1) i = pass_meanwhile(i);
     }
     device_.fetch_counts();
@@ -219,7 +215,8 @@ void DistributedRunner::place_bodies() {
 
 std::size_t DistributedRunner::run_on_device(std::size_t first) {
     std::size_t last = first + 1;
-    while (last < plan_.size() && !profiles_device_ && after_[last - 1] == Talk::none && before_[last] == Talk::none) ++last;
+    while (last < plan_.size() && !profiles_device_ && after_[last - 1] == SyncPoint::none && before_[last] == SyncPoint::none)
+        ++last;
     const auto begin = std::chrono::steady_clock::now();
     device_.runner().run_stages(first, last);
     const auto end = std::chrono::steady_clock::now();

@@ -2,8 +2,8 @@
 //
 // Every rank moves the bodies that it owns (ownership.h), and has the tables of the whole scene or its share of them (share.h). A
 // contact at a border is solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other
-// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's
-// stages are told between them: here is the list of these places.
+// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, ranks
+// exchange between the plan's stages, at the sync points.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,7 @@
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
+#include "compute/distributed/ranks.h"
 #include "compute/distributed/share.h"
 #include "compute/plan/plan.h"
 #include "compute/plan/stage_clock.h"
@@ -21,7 +22,7 @@
 
 namespace scree {
 
-class DistributedRunner : public Runner {
+class DistributedRunner : public Runner, public Ranks {
 public:
     // `make_device`: makes the runner of the stages; null: the CPU runs them, with `threads` threads.
     DistributedRunner(std::shared_ptr<Exchange> exchange, int threads, DeviceSide::Make make_device = nullptr)
@@ -31,15 +32,13 @@ public:
     std::uint32_t group_size() const override { return device_ ? device_.runner().group_size() : 64; }
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
-    int ranks() const override { return exchange_->ranks(); }
-    int rank() const override { return exchange_->rank(); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) const override { return exchange_->swap(to); }
+    Ranks* ranks() override { return exchange_->ranks() > 1 ? this : nullptr; }
+    Exchange& exchange() const override { return *exchange_; }
     void download_own_contacts() override;
     void download_share() override;
     bool can_share_out() const override;
     void share_out() override;
     void make_whole() override;
-    bool can_begin_shared() const override;
     std::vector<std::uint64_t> borders_of(std::vector<std::uint64_t> places) override;
     void attach_share(State& state, std::vector<int> owners, std::span<const std::uint32_t> own,
                       const std::function<void()>& fill) override;
@@ -51,8 +50,8 @@ public:
     StageTimes last_stage_times() const override { return clock_.last(); }
 
 private:
-    // What ranks tell each other before or after a stage.
-    enum class Talk {
+    // What ranks exchange before or after a stage.
+    enum class SyncPoint {
         none,
         ghosts,      // before the first stage that reads bounds: ghosts, with poses, velocities, forces
         flags,       // after compute_bounds: levels in use, who stirs, sleeps, is fast
@@ -66,22 +65,22 @@ private:
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };
-    bool say(Talk what);   // talk(), timed
-    bool talk(Talk what);  // false: the step is to be repeated with longer lists
+    bool sync(SyncPoint at);         // exchange_at(), timed
+    bool exchange_at(SyncPoint at);  // false: the step is to be repeated with longer lists
     void run(std::size_t stage);
-    // On the device: the stages from this one on up to the next that ranks talk before or after. Returns the stage after them.
+    // On the device: the stages from this one up to the next sync point. Returns the stage after them.
     std::size_t run_on_device(std::size_t first);
     void move_bodies_between_ranks();
     void place_bodies();
-    // Runs the stages of a pass, from this one, while what was said last travels. Returns the stage after them.
+    // Runs the stages of a pass, from this one, while what was sent last travels. Returns the stage after them.
     std::size_t pass_meanwhile(std::size_t first);
-    void agree_on_flags();
-    bool agree_on_room();
-    void tell_wake();
-    void tell_ends();
-    void tell_quarantined();
-    void tell_ownerless(bool breaks);
-    void tell_broken();
+    void sync_flags();
+    bool sync_room();
+    void sync_wake();
+    void sync_ends();
+    void sync_quarantined();
+    void sync_ownerless(bool breaks);
+    void sync_broken();
     void fetch_from_device(const std::vector<TableRange>& ranges);
     void forget_contacts();  // of other ranks, which were read
     void send(const std::vector<TableRange>& ranges) override;
@@ -95,7 +94,7 @@ private:
     bool edited_contacts_ = false;    // on the host, since the last step
     State* state_ = nullptr;
     std::vector<Stage> plan_;
-    std::vector<Talk> before_, after_;  // by stage
+    std::vector<SyncPoint> before_, after_;  // by stage
     int planned_substeps_ = 0;
     SceneFeatures planned_features_;
     StageClock clock_;

@@ -1,4 +1,4 @@
-// What ranks that share a world say to each other: an interface, with ranks as threads of one process
+// Messages between ranks that share a world: an interface, with ranks as threads of one process
 // (compute/distributed/in_process.h) or as processes of MPI (demos/program/mpi; a module of the program).
 #pragma once
 
@@ -28,20 +28,22 @@ public:
     virtual int rank() const = 0;   // of this one, from 0
     virtual int ranks() const = 0;  // in all
     // Sends to[r] to each rank r; returns by rank what was sent here.
-    virtual std::vector<Bytes> swap(const std::vector<Bytes>& to) = 0;
+    virtual std::vector<Bytes> all_to_all(const std::vector<Bytes>& to) = 0;
     // Begins the same where both sides know the lengths: from[r] has that of what rank r sends. Empty messages are not
     // sent. Until finish() `to` and `from` must stay as they are, and nothing else is exchanged.
     virtual void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) = 0;
     virtual void finish() = 0;
     virtual void progress() {}  // in between, lets messages go on where no other thread does
-    void swap(const std::vector<Bytes>& to, std::vector<Bytes>& from) {
+    void all_to_all(const std::vector<Bytes>& to, std::vector<Bytes>& from) {
         start(to, from);
         finish();
     }
     virtual void unite(std::span<std::uint32_t> bits) = 0;   // bitwise or over all ranks
     virtual void add(std::span<std::uint32_t> numbers) = 0;  // sums over all ranks
-    // What each rank says, by rank.
-    std::vector<Bytes> gather(const Bytes& said) { return swap(std::vector<Bytes>(static_cast<std::size_t>(ranks()), said)); }
+    // Each rank's bytes, by rank.
+    std::vector<Bytes> all_gather(const Bytes& own) {
+        return all_to_all(std::vector<Bytes>(static_cast<std::size_t>(ranks()), own));
+    }
 
     std::uint64_t bytes_sent() const { return bytes_sent_; }  // so far, to other ranks
     std::uint64_t messages_sent() const { return messages_sent_; }

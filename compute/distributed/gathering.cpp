@@ -22,30 +22,30 @@ void gather_rows(State& state, Exchange& exchange, const TableRange& range) {
     const std::size_t bytes = record_bytes(range.table);
     const std::span<std::byte> table = state.raw(range.table);
     const std::size_t last = std::min(range.first + range.count, table.size() / bytes);
-    Bytes said;
+    Bytes sent;
     for (std::size_t row = range.first; row < last; ++row) {
         if (!state.is_owned(row)) continue;
-        put(said, static_cast<std::uint32_t>(row));
-        said.insert(said.end(), table.begin() + static_cast<std::ptrdiff_t>(row * bytes),
+        put(sent, static_cast<std::uint32_t>(row));
+        sent.insert(sent.end(), table.begin() + static_cast<std::ptrdiff_t>(row * bytes),
                     table.begin() + static_cast<std::ptrdiff_t>((row + 1) * bytes));
     }
-    for (const Bytes& told : exchange.gather(said))
-        for (std::size_t at = 0; at < told.size(); at += sizeof(std::uint32_t) + bytes) {
+    for (const Bytes& received : exchange.all_gather(sent))
+        for (std::size_t at = 0; at < received.size(); at += sizeof(std::uint32_t) + bytes) {
             std::uint32_t row = 0;
-            std::memcpy(&row, &told[at], sizeof row);
-            std::memcpy(&table[row * bytes], &told[at + sizeof row], bytes);
+            std::memcpy(&row, &received[at], sizeof row);
+            std::memcpy(&table[row * bytes], &received[at + sizeof row], bytes);
         }
 }
 
 void gather_contacts(State& state, Exchange& exchange) {
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
-            if (state.tells_of(state.contacts[k]))
-                put(said, TracedContact{{row, ContactRecords::of(state, k)}, k < state.carried.size() ? state.carried[k] : 0.0f});
+            if (state.owns_contact(state.contacts[k]))
+                put(sent, TracedContact{{row, ContactRecords::of(state, k)}, k < state.carried.size() ? state.carried[k] : 0.0f});
     std::vector<TracedContact> all;
-    for (const Bytes& told : exchange.gather(said))
-        for (Unpacker from(told); from.has_more();) all.push_back(from.take<TracedContact>());
+    for (const Bytes& received : exchange.all_gather(sent))
+        for (Unpacker from(received); from.has_more();) all.push_back(from.take<TracedContact>());
     const auto key = [&](const TracedContact& one) {
         const OwnedContact& c = one.contact;
         const physics::Contact& contact = c.records.contacts;
@@ -60,31 +60,31 @@ void gather_contacts(State& state, Exchange& exchange) {
 }
 
 void gather_joints(State& state, Exchange& exchange) {
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
         const physics::JointBlock& block = state.joint_blocks[i];
         if (!state.owns_block(block)) continue;
         for (std::uint32_t k = block.first_joint; k < block.first_joint + block.joints; ++k) {
-            put(said, k);
-            put(said, state.joints[k]);
+            put(sent, k);
+            put(sent, state.joints[k]);
         }
     }
-    for (const Bytes& told : exchange.gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    for (const Bytes& received : exchange.all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const auto k = from.take<std::uint32_t>();
             from.take(state.joints[k]);
         }
 }
 
 void gather_vehicles(State& state, Exchange& exchange) {
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
         if (!state.is_owned(state.vehicles[i].dynamics.chassis)) continue;
-        put(said, i);
-        put(said, state.vehicles[i]);
+        put(sent, i);
+        put(sent, state.vehicles[i]);
     }
-    for (const Bytes& told : exchange.gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    for (const Bytes& received : exchange.all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const auto i = from.take<std::uint32_t>();
             from.take(state.vehicles[i]);
         }

@@ -1,4 +1,4 @@
-// What every rank is told when the world is read: the bodies, contacts, joints and vehicles of all ranks.
+// What every rank receives when the world is read: the bodies, contacts, joints and vehicles of all ranks.
 #pragma once
 
 #include "compute/distributed/exchange.h"

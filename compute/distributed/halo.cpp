@@ -97,17 +97,17 @@ void Halo::find_near(const State& state, Exchange& exchange) {
         boxes.push_back(box);
         all = {glm::min(all.lower, box.lower), glm::max(all.upper, box.upper)};
     }
-    Bytes said;
-    put(said, all);
+    Bytes sent;
+    put(sent, all);
     const auto ranks = static_cast<std::size_t>(exchange.ranks()), own = static_cast<std::size_t>(exchange.rank());
     std::vector<Box> theirs(ranks);
-    const std::vector<Bytes> told = exchange.gather(said);
-    for (std::size_t r = 0; r < ranks; ++r) Unpacker(told[r]).take(theirs[r]);
+    const std::vector<Bytes> received = exchange.all_gather(sent);
+    for (std::size_t r = 0; r < ranks; ++r) Unpacker(received[r]).take(theirs[r]);
     const auto may_touch = [&](std::size_t r) {
         return r != own && overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper);
     };
     // To each neighbour coarse cells of the bodies within its bounds; then of those in its coarse cells the fine ones.
-    std::vector<Bytes> told_cells(ranks);
+    std::vector<Bytes> own_cells(ranks);
     std::vector<std::vector<std::size_t>> near(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
         if (!may_touch(r)) continue;
@@ -117,19 +117,19 @@ void Halo::find_near(const State& state, Exchange& exchange) {
             near[r].push_back(k);
             set.add(boxes[k].lower, boxes[k].upper);
         }
-        told_cells[r] = set.bytes();
+        own_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> regions = exchange.swap(told_cells);
+    const std::vector<Bytes> regions = exchange.all_to_all(own_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
-        told_cells[r].clear();
+        own_cells[r].clear();
         if (!may_touch(r)) continue;
         const CellSet region(coarse * state.fixed().inverse_cell, regions[r]);
         std::erase_if(near[r], [&](std::size_t k) { return !region.meets(boxes[k].lower, boxes[k].upper); });
         CellSet set(state.fixed().inverse_cell);
         for (const std::size_t k : near[r]) set.add(boxes[k].lower, boxes[k].upper);
-        told_cells[r] = set.bytes();
+        own_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> sets = exchange.swap(told_cells);
+    const std::vector<Bytes> sets = exchange.all_to_all(own_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
         if (!may_touch(r)) continue;
         const CellSet set(state.fixed().inverse_cell, sets[r]);
@@ -143,13 +143,13 @@ void Halo::find_touched(const State& state, const Ownership& ownership, const Ex
     const std::uint32_t count = state.first_contacts[state.fixed().bodies];
     for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t a = state.body_of(state.contacts_before[k].a), b = state.body_of(state.contacts_before[k].b);
-        const auto tell = [&](std::uint32_t row, std::uint32_t other) {
+        const auto note = [&](std::uint32_t row, std::uint32_t other) {
             if (!state.is_owned(row) || state.properties[other].motion != physics::MOTION_DYNAMIC) return;
             const int owner = ownership.owner_of(state, other);
             if (owner != exchange.rank()) to_[static_cast<std::size_t>(owner)].push_back(row);
         };
-        tell(a, b);
-        tell(b, a);
+        note(a, b);
+        note(b, a);
     }
 }
 
@@ -172,7 +172,7 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange, Sh
         to_[r].erase(std::unique(to_[r].begin(), to_[r].end()), to_[r].end());
         ghosts[r] = start_of(state, to_[r], known_[r]);
     }
-    take_ghosts(state, share, exchange.swap(ghosts));
+    take_ghosts(state, share, exchange.all_to_all(ghosts));
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
         state.presence[row] = state.presence[state.properties[row].owner];
 }
@@ -292,14 +292,14 @@ void Halo::send_struck(State& state, Exchange& exchange) {
     send<std::uint32_t>(
         state, exchange, [](const State& s, std::uint32_t row) { return s.bounds[row].sweep.struck; },
         [](State& s, std::uint32_t row, const std::uint32_t& struck) { s.bounds[row].sweep.struck = struck; });
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.struck == 0) continue;
-        put(said, state.id_of(row));
-        put(said, state.bounds[row].sweep.struck);
+        put(sent, state.id_of(row));
+        put(sent, state.bounds[row].sweep.struck);
     }
-    for (const Bytes& told : exchange.gather(said))
-        for (Unpacker from(told); from.has_more();) {
+    for (const Bytes& received : exchange.all_gather(sent))
+        for (Unpacker from(received); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
             state.bounds[row].sweep.struck |= from.take<std::uint32_t>();
         }

@@ -59,7 +59,7 @@ public:
     [[noreturn]] void end_all(int) override { throw RankLost("a rank ends all"); }
     int rank() const override { return rank_; }
     int ranks() const override { return static_cast<int>(point_.words.size()); }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
+    std::vector<Bytes> all_to_all(const std::vector<Bytes>& to) override {
         std::vector<Bytes> from(to.size());
         start(to, from);
         take([](Bytes& into, const Bytes& mail) { into = mail; });

@@ -12,7 +12,7 @@ namespace scree {
 
 namespace {
 
-// With more samples borders are better; with all ranks told, 1,000 ranks send 4 MB each time.
+// With more samples borders are better; exchanged between all, 1,000 ranks send 4 MB each time.
 constexpr int samples_of_rank = 256;
 // Borders stay while no rank has more than this much of the mean cost.
 constexpr double uneven = 1.05;
@@ -33,7 +33,7 @@ MovedBody moved_body(const State& state, std::uint32_t row) {
 }
 void take_body(State& state, MovedBody body) {
     const std::uint32_t row = state.row_of(body.id);
-    // Properties are told to shares alone: others have them.
+    // Properties are sent to shares alone: others have them.
     body.records.properties = state.is_share() ? owned_by(row, body.records.properties) : state.properties[row];
     body.records.put(state, row);
 }
@@ -151,7 +151,7 @@ void Ownership::give_contacts(State& state, Exchange& exchange) {
     std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) put_list(to[r], contacts[r]);
     std::vector<OwnedContact> more;
-    for (const Bytes& one : exchange.swap(to)) {
+    for (const Bytes& one : exchange.all_to_all(to)) {
         Unpacker from(one);
         for (const OwnedContact& contact : take_list<OwnedContact>(from)) more.push_back(by_rows(state, contact));
     }
@@ -200,8 +200,8 @@ void Ownership::place(State& state, Exchange& exchange) {
     }
     for (std::uint32_t row = first_part; row < rows; ++row) state.presence[row] = state.presence[state.properties[row].owner];
     if (!any_stopped) return;
-    for (const Bytes& told : exchange.gather(no_longer_dynamic))
-        for (Unpacker from(told); from.has_more();) take_body(state, from.take<MovedBody>());
+    for (const Bytes& received : exchange.all_gather(no_longer_dynamic))
+        for (Unpacker from(received); from.has_more();) take_body(state, from.take<MovedBody>());
 }
 
 void Ownership::balance(State& state, Exchange& exchange, Share& share) {
@@ -218,19 +218,19 @@ void Ownership::balance(State& state, Exchange& exchange, Share& share) {
     }
     const std::vector<Sample> unsorted = own;
     std::sort(own.begin(), own.end(), [](const Sample& a, const Sample& b) { return a.place < b.place; });
-    Bytes said;
-    put(said, total);
+    Bytes sent;
+    put(sent, total);
     double passed = 0;
     int taken = 0;
     for (const Sample& body : own) {
         passed += body.cost;
         for (; taken < samples_of_rank && passed >= (taken + 0.5) * total / samples_of_rank; ++taken)
-            put(said, Sample{body.place, total / samples_of_rank});
+            put(sent, Sample{body.place, total / samples_of_rank});
     }
     std::vector<Sample> all;
     double most = 0, sum = 0;
-    for (const Bytes& told : exchange.gather(said)) {
-        Unpacker from(told);
+    for (const Bytes& received : exchange.all_gather(sent)) {
+        Unpacker from(received);
         const auto cost = from.take<double>();
         most = std::max(most, cost);
         sum += cost;
@@ -266,16 +266,16 @@ void Ownership::follow_joints(State& state, Exchange& exchange, Share& share) {
 }
 
 void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves& own_moves) {
-    Bytes said;
+    Bytes sent;
     for (const auto& [id, target] : own_moves) {
-        put(said, id);
-        put(said, target);
+        put(sent, id);
+        put(sent, target);
     }
-    const std::vector<Bytes> told = exchange.gather(said);
-    if (std::all_of(told.begin(), told.end(), [](const Bytes& one) { return one.empty(); })) return;
+    const std::vector<Bytes> received = exchange.all_gather(sent);
+    if (std::all_of(received.begin(), received.end(), [](const Bytes& one) { return one.empty(); })) return;
     const int own = exchange.rank();
     std::unordered_set<std::uint32_t> left;
-    for (const Bytes& one : told)
+    for (const Bytes& one : received)
         for (Unpacker from(one); from.has_more(); ++migrations_) {
             const auto id = from.take<std::uint32_t>();
             if (owner_[id] == own) left.insert(id);
@@ -295,9 +295,9 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             const int to_a = leaves_for(contact.a), to_b = leaves_for(contact.b);
-            const OwnedContact told_contact = by_ids(state, {row, ContactRecords::of_last_step(state, k)});
-            if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back(told_contact);
-            if (to_b >= 0 && to_b != to_a) contacts[static_cast<std::size_t>(to_b)].push_back(told_contact);
+            const OwnedContact sent_contact = by_ids(state, {row, ContactRecords::of_last_step(state, k)});
+            if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back(sent_contact);
+            if (to_b >= 0 && to_b != to_a) contacts[static_cast<std::size_t>(to_b)].push_back(sent_contact);
         }
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
@@ -336,7 +336,7 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
     }
     std::vector<MovedBody> come;
     std::vector<OwnedContact> more;
-    for (const Bytes& one : exchange.swap(to)) {
+    for (const Bytes& one : exchange.all_to_all(to)) {
         Unpacker from(one);
         const auto some_bodies = take_list<MovedBody>(from);
         come.insert(come.end(), some_bodies.begin(), some_bodies.end());

@@ -24,8 +24,8 @@ public:
     void adapt(const State& state, const Exchange& exchange);
     bool knows(const State& state) const { return owner_.size() == state.body_count; }
     bool will_follow_joints() const { return regrouped_; }  // in follow_joints()
-    bool any_stopped(const State& state) const;             // bodies that are no longer dynamic, of which place() will tell
-    // Sets the presence of every row by its motion and owner, with no ghosts. Bodies that are no longer dynamic are told to all.
+    bool any_stopped(const State& state) const;             // bodies that are no longer dynamic, which place() will send
+    // Sets the presence of every row by its motion and owner, with no ghosts. Bodies that are no longer dynamic are sent to all.
     void place(State& state, Exchange& exchange);
     // Moves the borders by the cost that was measured, and the bodies that have crossed one. Between turning over and begin_step.
     void balance(State& state, Exchange& exchange, Share& share);

@@ -31,7 +31,7 @@ public:
     Record& take(Record& record) {
         static_assert(std::is_trivially_copyable_v<Record>);
         if (at_ + sizeof record > bytes_.size()) throw RankLost("a message from another rank is too short");
-        std::memcpy(&record, &bytes_[at_], sizeof record);
+        std::memcpy(static_cast<void*>(&record), &bytes_[at_], sizeof record);
         at_ += sizeof record;
         return record;
     }

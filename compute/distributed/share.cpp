@@ -168,11 +168,11 @@ void Share::begin(State& state, std::span<const std::uint32_t> ids) {
 }
 
 void Share::end(State& state, Exchange& exchange) {
-    Bytes said;
+    Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row)) {
-            put(said, state.id_of(row));
-            put(said, RowRecords::of(state, row));
+            put(sent, state.id_of(row));
+            put(sent, RowRecords::of(state, row));
         }
     const std::uint32_t first_part = *state.first_part_id;
     std::vector<std::uint32_t> from(first_part, physics::NONE);
@@ -183,10 +183,10 @@ void Share::end(State& state, Exchange& exchange) {
     free_.clear();
     changes_ = {};
     drop_caches(state);
-    const std::vector<Bytes> told = exchange.gather(said);
-    for (std::size_t r = 0; r < told.size(); ++r) {
+    const std::vector<Bytes> received = exchange.all_gather(sent);
+    for (std::size_t r = 0; r < received.size(); ++r) {
         if (r == static_cast<std::size_t>(exchange.rank())) continue;
-        for (Unpacker bodies(told[r]); bodies.has_more();) {
+        for (Unpacker bodies(received[r]); bodies.has_more();) {
             const auto id = bodies.take<std::uint32_t>();
             bodies.take<RowRecords>().put(state, id);
             state.properties[id].owner = id;

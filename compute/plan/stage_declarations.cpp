@@ -30,7 +30,7 @@ Access as_long_as(BufferLength length, Access access) { access.as_long_as = leng
 // clang-format on
 
 // Of stages that read the gravity of a copy.
-constexpr std::uint32_t felt = physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES;
+constexpr std::uint32_t reads_gravity = physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES;
 
 // By pair type, PAIR_*.
 constexpr std::array<const char*, physics::PAIR_TYPES> pair_type_names{
@@ -113,7 +113,7 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
         all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
             {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
-            found, felt});
+            found, reads_gravity});
         for (const Table table : {gravities, ids}) all.back().reads.push_back({table});
         if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
@@ -144,11 +144,11 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
         {in_parts({counts}), {contact_pairs, A::stirred}, {pairs, A::stirred}, {manifold_places, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
          {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}, {gravities}, {ids}},
-        {by_atomics({sleep_states}), in_parts({counts})}, felt});
+        {by_atomics({sleep_states}), in_parts({counts})}, reads_gravity});
     all.push_back({"wake_unsupported", DispatchDomain::bodies, wake_unsupported,
         {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
          {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states}), {gravities}},
-        {by_atomics({sleep_states})}, felt});
+        {by_atomics({sleep_states})}, reads_gravity});
     all.push_back({"wake_joined", DispatchDomain::joint_blocks, wake_joined,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {sleep_states, A::joints}, {properties}, {velocities}},
         {{joint_blocks}, {sleep_states}}});
@@ -174,17 +174,17 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"warm_start_contacts", DispatchDomain::contacts, warm_start_contacts,
         {{counts}, {contact_pairs, A::contacts}, {pairs, A::contacts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {contacts_before, A::contacts}, {impulses_before, A::contacts},
          {impacts_before, A::rebounds}, {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
-        {{contacts, A::contacts, 1}, {impulses, A::contacts}, {impacts, A::rebounds}}, physics::FEATURE_BOUNCES | felt});
+        {{contacts, A::contacts, 1}, {impulses, A::contacts}, {impacts, A::rebounds}}, physics::FEATURE_BOUNCES | reads_gravity});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
-        {{constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt});
+        {{constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | reads_gravity});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
-                                       physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | felt;
+                                       physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | reads_gravity;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "compute/fields/body.h"
 #include "compute/replay/replay.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/scene_json.h"
+#include "compute/schema/body.h"
 
 namespace scree::replay {
 
@@ -60,9 +60,9 @@ std::string act_text(const char* name, const Pairs&... pairs) {
 // Calls visit(key, value) for each coefficient, under the body's key.
 template <class Visit>
 void for_each_coefficient(auto& act, const Visit& visit) {
-    visit(fields::field_of(&Body::friction).key, act.friction);
-    visit(fields::field_of(&Body::restitution).key, act.restitution);
-    visit(fields::field_of(&Body::rolling_resistance).key, act.rolling_resistance);
+    visit(schema::field_of(&Body::friction).key, act.friction);
+    visit(schema::field_of(&Body::restitution).key, act.restitution);
+    visit(schema::field_of(&Body::rolling_resistance).key, act.rolling_resistance);
 }
 
 struct Writer {
@@ -103,7 +103,7 @@ struct Writer {
     }
     std::string operator()(const SetMotion& act) const {
         return "\"set_motion\": {\"body\": " + text_of(act.body) + ", \"motion\": \"" +
-               fields::words<Motion>[static_cast<std::size_t>(act.motion)] + "\"}";
+               schema::words<Motion>[static_cast<std::size_t>(act.motion)] + "\"}";
     }
     std::string operator()(const Turn& act) const {
         std::string inside;
@@ -180,7 +180,7 @@ SetMotion motion_act_of(const json& value, const Place& place) {
     std::string word;
     required(value, place, "body", act.body);
     required(value, place, "motion", word);
-    const auto& words = fields::words<Motion>;
+    const auto& words = schema::words<Motion>;
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end())
         throw SceneError((place / "motion").pointer(), unknown("motion", word, Names(words.begin(), words.end())));
@@ -280,16 +280,6 @@ TimedAct timed_act_of(const json& value, const Place& place) {
         timed.act = act_of(key, inside, place / key.c_str());
     }
     return timed;
-}
-
-json parsed(std::string_view text) {
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
 }
 
 void read_settings(const json& value, const Place& root, Input& input) {

@@ -302,7 +302,7 @@ std::vector<double> key_of(const Shape& shape, const Fracture& f) {
     return key;
 }
 
-// Rules beyond the ranges of the field table (compute/fields/body.h).
+// Rules beyond the ranges of the field table (compute/schema/body.h).
 void require_sense(const Shape& shape, const Fracture& f) {
     const bool by_impulse = f.impulse > 0 && std::isfinite(f.impulse), by_momentum = f.momentum > 0 && std::isfinite(f.momentum);
     if (by_impulse == by_momentum)

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "compute/fields/check.h"
-#include "compute/fields/joint.h"
 #include "compute/scene/double_quaternion.h"
 #include "compute/scene/validator.h"
+#include "compute/schema/check.h"
+#include "compute/schema/joint.h"
 
 namespace scree {
 
@@ -18,7 +18,7 @@ namespace {
 using glm::dquat;
 using glm::dvec3;
 
-using fields::Direction;
+using schema::Direction;
 
 // Rules beyond the ranges of the field table.
 struct Rules {
@@ -57,7 +57,7 @@ void examine(const Examination& joint, Joint& j, const Scene& scene) {
         joint.refuse("/b", "body " + std::to_string(j.a) + " is joined to itself; name another, or leave it out for the world");
     if (!moves(j.a) && !moves(j.b))
         joint.refuse("", "joins two bodies that never move; at least one of a and b must be a dynamic body");
-    fields::check_fields(joint, j, Rules());
+    schema::check_fields(joint, j, Rules());
 }
 
 struct Frame {

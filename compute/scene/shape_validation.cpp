@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include "compute/fields/body.h"
 #include "compute/scene/mesh.h"
+#include "compute/schema/body.h"
 #include "shaders/physics/collide/shape_data.h"
 
 namespace scree {
@@ -97,8 +97,8 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
         part.between("/position", p.position, within_shape_range.least, within_shape_range.most, " m");
         part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
         if (p.density != 0) part.between("/density", p.density, smallest_density, largest_density, " kg/m^3");
-        if (p.filter) fields::check_fields(part / "filter", *p.filter);
-        if (p.material) fields::check_fields(part / "material", *p.material);
+        if (p.filter) schema::check_fields(part / "filter", *p.filter);
+        if (p.material) schema::check_fields(part / "material", *p.material);
         if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, shapes, notes);
     }
     if (compound.parts.empty() || b.inertial) return {};

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "compute/fields/check.h"
-#include "compute/fields/document.h"
 #include "compute/scene/body_validation.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/inertial.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/scene/shape_validation.h"
 #include "compute/scene/vehicle_validation.h"
+#include "compute/schema/check.h"
+#include "compute/schema/scene.h"
 
 namespace scree {
 
@@ -37,10 +37,10 @@ void check_role(const Examination& body, const Body& b) {
 
 Shift examine(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
     check_shape(body, b.shape, b.motion);
-    fields::check_fields(body, b);
+    schema::check_fields(body, b);
     const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, shapes, notes));
     if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
-    if (shift) fields::check_field(body, b, fields::field_of(&Body::position));  // of the centre of mass
+    if (shift) schema::check_field(body, b, schema::field_of(&Body::position));  // of the centre of mass
     check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
@@ -83,7 +83,7 @@ void check_world_fields(Fields& of_world) {
     if (of_world.attractors.size() > most_attractors)
         at.refuse("/attractors", "at most " + std::to_string(most_attractors) + " attractors, are " +
                                      std::to_string(of_world.attractors.size()));
-    fields::check_fields(at, of_world);
+    schema::check_fields(at, of_world);
 }
 
 Shift BodyValidation::check(Body& body, std::size_t index) {
@@ -107,7 +107,7 @@ Shift BodyValidation::check_passing(Body& body, std::size_t index) {
 
 Scene checked(Scene scene, std::vector<std::string>* notes) {
     BodyValidation validation(notes);
-    fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
+    schema::check_field(Examination(), scene, schema::field_of(&Scene::gravity));
     check_world_fields(scene.fields);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before

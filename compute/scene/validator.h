@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "compute/fields/check.h"
-#include "compute/fields/range_text.h"
 #include "compute/scene.h"
+#include "compute/schema/check.h"
+#include "compute/schema/range_text.h"
 
 namespace scree {
 
@@ -39,7 +39,7 @@ public:
         return whole_->place() + (!inside_.empty() ? inside_ : "/" + (key_ ? std::string(key_) : std::to_string(index_)));
     }
     void between(const char* key, float value, float low, float high, const char* unit) const {
-        const fields::Range range{static_cast<double>(low), static_cast<double>(high)};
+        const schema::Range range{static_cast<double>(low), static_cast<double>(high)};
         if (!range.holds(value)) refuse(key, out_of_range(value, range, *unit == ' ' ? unit + 1 : unit));
     }
     void between(const std::string& key, float value, float low, float high, const char* unit) const {
@@ -53,7 +53,7 @@ public:
     }
     template <class Vector>
     void make_unit(const char* key, Vector& v, const char* meaning) const {
-        fields::make_unit(part(key), v, meaning);
+        schema::make_unit(part(key), v, meaning);
     }
 
 private:

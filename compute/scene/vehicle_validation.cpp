@@ -5,16 +5,16 @@
 #include <map>
 #include <string>
 
-#include "compute/fields/check.h"
-#include "compute/fields/vehicle.h"
 #include "compute/scene/validator.h"
 #include "compute/scene/vehicle_records.h"
+#include "compute/schema/check.h"
+#include "compute/schema/vehicle.h"
 
 namespace scree {
 
 namespace {
 
-static_assert(fields::field_of(&Vehicle::wheels).range.high == physics::MOST_WHEELS);
+static_assert(schema::field_of(&Vehicle::wheels).range.high == physics::MOST_WHEELS);
 constexpr float least_cosine = 0.99f;  // between two axles
 
 // Owner vehicle of each chassis or wheel.
@@ -77,7 +77,7 @@ void examine(std::size_t index, const Vehicle& v, const Scene& scene, Owners& ch
     for (std::size_t k = 0; k < v.wheels.size(); ++k)
         if (v.wheels[k].radius <= 0)
             refuse(vehicle / "wheels" / k / "radius", "must be positive, m, is " + text_of(v.wheels[k].radius));
-    fields::check_fields(vehicle, v);
+    schema::check_fields(vehicle, v);
     if (v.chassis >= scene.bodies.size())
         vehicle.refuse("/chassis", "there is no body " + std::to_string(v.chassis) + "; the scene has " +
                                        std::to_string(scene.bodies.size()));

@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "compute/fields/check.h"
-#include "compute/fields/field.h"
 #include "compute/scene_file/json_reading.h"
+#include "compute/schema/check.h"
+#include "compute/schema/field.h"
 
 namespace scree::json_reading {
 
@@ -31,15 +31,15 @@ Numbers numbers_of(const Things& things) {
 }
 
 // Index of a body or joint, given by index or name. `or_world`: may be omitted for the world, or be "world".
-std::size_t index_of(const json& value, const Place& place, fields::Refers refers, bool or_world, const NamedThings& named);
+std::size_t index_of(const json& value, const Place& place, schema::Refers refers, bool or_world, const NamedThings& named);
 
 // The keys of a struct, with those of embedded structs.
-template <fields::HasTable Struct>
+template <schema::HasTable Struct>
 const Names& keys_of() {
     static const Names keys = [] {
         Names made;
-        fields::for_each_field<Struct>([&]<class Member>(const fields::Field<Struct, Member>& field) {
-            if constexpr (fields::HasTable<Member>) {
+        schema::for_each_field<Struct>([&]<class Member>(const schema::Field<Struct, Member>& field) {
+            if constexpr (schema::HasTable<Member>) {
                 if (field.embedded()) return void(made.insert(made.end(), keys_of<Member>().begin(), keys_of<Member>().end()));
             }
             made.emplace_back(field.key);
@@ -51,26 +51,26 @@ const Names& keys_of() {
 
 template <class Value>
 void read_value(const json& value, const Place& place, Value& out, const char* unit, const NamedThings& named);
-template <fields::HasTable Struct>
+template <schema::HasTable Struct>
 void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named = {});
 
 // Reads one field.
 template <class Struct, class Member>
-void read_field(const json& object, const Place& place, const fields::Field<Struct, Member>& field, Struct& out,
+void read_field(const json& object, const Place& place, const schema::Field<Struct, Member>& field, Struct& out,
                 const NamedThings& named) {
     Member& member = out.*field.member;
-    if constexpr (fields::HasTable<Member>) {
+    if constexpr (schema::HasTable<Member>) {
         if (field.embedded()) return read_fields(object, place, member, named);
     }
     const auto found = object.find(field.key);
     if (found == object.end()) {
-        if (field.presence != fields::Presence::required) return;
-        refuse(place, fields::is_list<Member> ? std::string("needs \"") + field.key + "\", an array"
+        if (field.presence != schema::Presence::required) return;
+        refuse(place, schema::is_list<Member> ? std::string("needs \"") + field.key + "\", an array"
                                               : std::string("lacks \"") + field.key + "\"");
     }
     if constexpr (std::is_same_v<Member, std::size_t>) {
-        if (field.refers != fields::Refers::to_nothing) {
-            const bool or_world = field.presence != fields::Presence::required;
+        if (field.refers != schema::Refers::to_nothing) {
+            const bool or_world = field.presence != schema::Presence::required;
             member = index_of(*found, place / field.key, field.refers, or_world, named);
             return;
         }
@@ -79,28 +79,28 @@ void read_field(const json& object, const Place& place, const fields::Field<Stru
 }
 
 // Reads all fields of an object whose keys are known; ignores other keys.
-template <fields::HasTable Struct>
+template <schema::HasTable Struct>
 void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named) {
-    fields::for_each_field<Struct>([&](const auto& field) { read_field(object, place, field, out, named); });
+    schema::for_each_field<Struct>([&](const auto& field) { read_field(object, place, field, out, named); });
 }
 
 template <class Value>
 void read_value(const json& value, const Place& place, Value& out, const char* unit, const NamedThings& named) {
-    if constexpr (fields::is_optional<Value>) {
+    if constexpr (schema::is_optional<Value>) {
         read_value(value, place, out.emplace(), unit, named);
-    } else if constexpr (fields::is_list<Value>) {
+    } else if constexpr (schema::is_list<Value>) {
         if (!value.is_array()) refuse(place, std::string("must be an array of ") + unit + ", is " + kind(value));
         for (std::size_t i = 0; i < value.size(); ++i) read_value(value[i], place / i, out.emplace_back(), "", named);
-    } else if constexpr (fields::HasTable<Value>) {
+    } else if constexpr (schema::HasTable<Value>) {
         only(value, place, keys_of<Value>());
         read_fields(value, place, out, named);
-    } else if constexpr (fields::HasWords<Value>) {
+    } else if constexpr (schema::HasWords<Value>) {
         std::string word;
         read(value, place, word);
-        const Names known(fields::words<Value>.begin(), fields::words<Value>.end());
+        const Names known(schema::words<Value>.begin(), schema::words<Value>.end());
         out = static_cast<Value>(index_among(known, word, place.key ? place.key : "word", place));
-    } else if constexpr (fields::HasAlternatives<Value>) {
-        constexpr auto& kinds = fields::alternatives<Value>;
+    } else if constexpr (schema::HasAlternatives<Value>) {
+        constexpr auto& kinds = schema::alternatives<Value>;
         const Names known(kinds.keys.begin(), kinds.keys.end());
         if (!value.is_object() || value.size() != 1)
             refuse(place, "must be an object with one key (" + listed(known) + "), such as {\"" + known.at(1) + "\": {}}; is " +

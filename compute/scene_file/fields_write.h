@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <variant>
 
-#include "compute/fields/check.h"
-#include "compute/fields/field.h"
 #include "compute/scene_file/json_text.h"
 #include "compute/scene_file/shapes_json.h"
+#include "compute/schema/check.h"
+#include "compute/schema/field.h"
 
 namespace scree {
 
@@ -23,13 +23,13 @@ bool is_default(const Value& value, const Value& by_default) {
         for (glm::length_t i = 0; i < Value::length(); ++i)
             if (!is_default(value[i], by_default[i])) return false;
         return true;
-    } else if constexpr (fields::is_optional<Value>) {
+    } else if constexpr (schema::is_optional<Value>) {
         return !value;
-    } else if constexpr (fields::is_list<Value>) {
+    } else if constexpr (schema::is_list<Value>) {
         return value.empty();
-    } else if constexpr (fields::HasTable<Value>) {
+    } else if constexpr (schema::HasTable<Value>) {
         bool all = true;
-        fields::for_each_field<Value>(
+        schema::for_each_field<Value>(
             [&](const auto& field) { all = all && is_default(value.*field.member, by_default.*field.member); });
         return all;
     } else if constexpr (requires { value.valueless_by_exception(); }) {
@@ -43,15 +43,15 @@ template <class Value>
 void write_value(Text& text, const Value& value);
 
 // `between`: the separator before the next member.
-template <fields::HasTable Struct>
+template <schema::HasTable Struct>
 void write_fields(Text& text, const Struct& from, const char*& between) {
     [[maybe_unused]] static const Struct by_default;
-    fields::for_each_field<Struct>([&]<class Member>(const fields::Field<Struct, Member>& field) {
+    schema::for_each_field<Struct>([&]<class Member>(const schema::Field<Struct, Member>& field) {
         const Member& member = from.*field.member;
-        if constexpr (fields::HasTable<Member>) {
+        if constexpr (schema::HasTable<Member>) {
             if (field.embedded()) return write_fields(text, member, between);
         }
-        if (field.presence == fields::Presence::optional && is_default(member, by_default.*field.member)) return;
+        if (field.presence == schema::Presence::optional && is_default(member, by_default.*field.member)) return;
         text << between << "\"" << field.key << "\": ";
         write_value(text, member);
         between = ", ";
@@ -60,9 +60,9 @@ void write_fields(Text& text, const Struct& from, const char*& between) {
 
 template <class Value>
 void write_value(Text& text, const Value& value) {
-    if constexpr (fields::is_optional<Value>) {
+    if constexpr (schema::is_optional<Value>) {
         write_value(text, *value);
-    } else if constexpr (fields::is_list<Value>) {
+    } else if constexpr (schema::is_list<Value>) {
         const char* between = "[";
         for (const auto& one : value) {
             text << between;
@@ -70,16 +70,16 @@ void write_value(Text& text, const Value& value) {
             between = ", ";
         }
         text << (value.empty() ? "[]" : "]");
-    } else if constexpr (fields::HasAlternatives<Value>) {
-        text << "{\"" << fields::alternatives<Value>.keys[value.index()] << "\": ";
+    } else if constexpr (schema::HasAlternatives<Value>) {
+        text << "{\"" << schema::alternatives<Value>.keys[value.index()] << "\": ";
         std::visit([&](const auto& one) { write_value(text, one); }, value);
         text << "}";
-    } else if constexpr (fields::HasTable<Value>) {
+    } else if constexpr (schema::HasTable<Value>) {
         const char* between = "{";
         write_fields(text, value, between);
         text << (*between == '{' ? "{}" : "}");
-    } else if constexpr (fields::HasWords<Value>) {
-        text << "\"" << fields::words<Value>[static_cast<std::size_t>(value)] << "\"";
+    } else if constexpr (schema::HasWords<Value>) {
+        text << "\"" << schema::words<Value>[static_cast<std::size_t>(value)] << "\"";
     } else if constexpr (std::is_same_v<Value, bool>) {
         text << (value ? "true" : "false");
     } else if constexpr (std::is_integral_v<Value>) {

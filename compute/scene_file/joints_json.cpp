@@ -1,24 +1,24 @@
 // Joints of a scene file: anchors in world coordinates, and bodies by name.
 #include "compute/scene_file/joints_json.h"
 
-#include "compute/fields/joint.h"
+#include "compute/schema/joint.h"
 
 namespace scree {
 
 namespace json_reading {
 
-std::size_t index_of(const json& value, const Place& place, fields::Refers refers, bool or_world, const NamedThings& named) {
-    const std::string what = refers == fields::Refers::to_body ? "body" : "joint";
+std::size_t index_of(const json& value, const Place& place, schema::Refers refers, bool or_world, const NamedThings& named) {
+    const std::string what = refers == schema::Refers::to_body ? "body" : "joint";
     if (value.is_number_unsigned()) return value.get<std::size_t>();
     if (!value.is_string())
         refuse(place, "must be a " + what + "'s index or name" + (or_world ? ", or be left out for the world; is " : ", is ") +
                           kind(value));
-    const Numbers& numbers = refers == fields::Refers::to_body ? named.bodies : named.joints;
+    const Numbers& numbers = refers == schema::Refers::to_body ? named.bodies : named.joints;
     const auto found = numbers.find(value.get<std::string>());
     if (found != numbers.end()) return found->second;
     if (or_world && value == "world") return the_world;
     refuse(place, "there is no " + what + " named " + value.dump(-1, ' ', false, json::error_handler_t::replace) + "; " +
-                      (refers == fields::Refers::to_body ? "bodies" : "joints") + " have indices from 0, or names");
+                      (refers == schema::Refers::to_body ? "bodies" : "joints") + " have indices from 0, or names");
 }
 
 }  // namespace json_reading
@@ -26,7 +26,7 @@ std::size_t index_of(const json& value, const Place& place, fields::Refers refer
 namespace {
 
 using namespace json_reading;
-using fields::JointPlacement;
+using schema::JointPlacement;
 
 // Converts "anchor" and "axis" (world coordinates) to anchors and frames.
 void place_joint(const json& value, const Place& place, const Scene& scene, Joint& joint) {

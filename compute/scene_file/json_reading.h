@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compute/scene.h"
@@ -65,9 +66,19 @@ std::string shortened_name(const std::string& name);
 std::string unknown(const char* what, const std::string& name, const Names& known);
 std::string escaped(std::string key);  // of a JSON pointer, RFC 6901
 
-// Reports a syntax error with line and column.
 [[noreturn]] void refuse_syntax(std::string_view text, const json::parse_error& error);
 [[noreturn]] void refuse_number(std::string_view text, const json::out_of_range& error);
+// Reports a syntax error with line and column. `callback`: for json::parse().
+template <class... Callback>
+json parsed(std::string_view text, Callback&&... callback) {
+    try {
+        return json::parse(text, std::forward<Callback>(callback)...);
+    } catch (const json::parse_error& error) {
+        refuse_syntax(text, error);
+    } catch (const json::out_of_range& error) {
+        refuse_number(text, error);
+    }
+}
 
 template <glm::length_t size>
 void read(const json& value, const Place& place, glm::vec<size, float>& out) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
@@ -37,7 +37,7 @@ using ParseEvent = json::parse_event_t;
 
 template <class View>
 void check_view(const Place& place, const View& view) {
-    fields::check_fields(place, view);
+    schema::check_fields(place, view);
     if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
 }
 
@@ -77,12 +77,12 @@ Viewpoint viewpoint_of(const json& value, const Place& place, const NamedThings&
 void read_run(const json& rest, const Place& root, const NamedThings& named, SceneDocument& document) {
     const auto read_checked = [&](const auto& field) {
         read_field(rest, root, field, document, named);
-        fields::check_field(root, document, field);
+        schema::check_field(root, document, field);
     };
-    read_checked(fields::field_of(&SceneDocument::settings));
-    read_checked(fields::field_of(&SceneDocument::duration));
-    read_checked(fields::field_of(&SceneDocument::picture));
-    read_checked(fields::field_of(&SceneDocument::events));
+    read_checked(schema::field_of(&SceneDocument::settings));
+    read_checked(schema::field_of(&SceneDocument::duration));
+    read_checked(schema::field_of(&SceneDocument::picture));
+    read_checked(schema::field_of(&SceneDocument::events));
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
         const Place picture = root / "picture", place = picture / "color_range";
@@ -144,13 +144,13 @@ void read_around(const json& rest, SceneDocument& document) {
     if (!rest.contains("bodies")) refuse(root, "a scene needs \"bodies\", an array");
     if (!rest["bodies"].is_array()) refuse(root / "bodies", "must be an array, is " + kind(rest["bodies"]));
     Scene& scene = document.scene;
-    read_field(rest, root, fields::field_of(&Scene::gravity), scene, {});
+    read_field(rest, root, schema::field_of(&Scene::gravity), scene, {});
     NamedThings named{numbers_of(scene.bodies), {}};
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
     named.joints = numbers_of(scene.joints);
-    read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
-    read_field(rest, root, fields::field_of(&Scene::exclusions), scene, named);
-    read_field(rest, root, fields::field_of(&Scene::fields), scene, {});
+    read_field(rest, root, schema::field_of(&Scene::vehicles), scene, named);
+    read_field(rest, root, schema::field_of(&Scene::exclusions), scene, named);
+    read_field(rest, root, schema::field_of(&Scene::fields), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
 }
@@ -165,16 +165,8 @@ bool refers_to_bodies(const json& rest) {
 
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     SceneDocument document;
-    json rest;
     const TakeBody take = [&](Body body) { document.scene.bodies.push_back(std::move(body)); };
-    try {
-        rest = json::parse(text, Listener(take, most_bodies));
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
-    read_around(rest, document);
+    read_around(parsed(text, Listener(take, most_bodies)), document);
     return document;
 }
 

@@ -7,7 +7,7 @@
 #include <new>
 #include <string_view>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_write.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_text.h"

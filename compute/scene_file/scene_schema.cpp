@@ -9,15 +9,15 @@
 #include <optional>
 #include <utility>
 
-#include "compute/fields/check.h"
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/shapes_json.h"
+#include "compute/schema/check.h"
 
 namespace scree {
 
 namespace {
 
-using namespace fields;
+using namespace schema;
 using nlohmann::ordered_json;
 
 ordered_json number(double value) {
@@ -140,7 +140,7 @@ private:
             if (*field.unit && !is_list<Member> && !is_optional<Member> && !HasTable<Member>)
                 about += " (" + std::string(field.unit) + ")";
             if (!about.empty()) made["description"] = about;
-            if (field.presence == Presence::required) required.push_back(field.key);
+            if (field.presence == schema::Presence::required) required.push_back(field.key);
             properties[field.key] = std::move(made);
         });
         if constexpr (std::is_same_v<Struct, Joint>) {
@@ -150,7 +150,7 @@ private:
     }
     template <class Struct, class Member>
     static void add_default(ordered_json& made, const Field<Struct, Member>& field, const ordered_json& value) {
-        if (field.presence != Presence::required) made["default"] = value;
+        if (field.presence != schema::Presence::required) made["default"] = value;
     }
 
     template <class Member>

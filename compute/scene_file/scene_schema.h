@@ -1,4 +1,4 @@
-// The JSON Schema of scene files, made from the field tables (compute/fields).
+// The JSON Schema of scene files, made from the field tables (compute/schema).
 #pragma once
 
 #include <string>

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "compute/fields/body.h"
 #include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/fields_write.h"
+#include "compute/schema/body.h"
 
 namespace scree {
 

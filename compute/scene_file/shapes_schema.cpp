@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "compute/fields/range_text.h"
 #include "compute/scene_file/shapes_json.h"
+#include "compute/schema/range_text.h"
 
 namespace scree {
 

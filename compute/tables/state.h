@@ -131,8 +131,8 @@ struct State : TableVectors {
         return presence.empty() || presence[row] >= Presence::everywhere;
     }
     bool is_owned(std::size_t row) const { return presence.empty() || presence[row] == Presence::owned; }
-    // Whether this rank tells of a contact, which at a border two have.
-    bool tells_of(const physics::Contact& contact) const {
+    // Whether this rank counts, saves and sends a contact, which at a border two have.
+    bool owns_contact(const physics::Contact& contact) const {
         const std::uint32_t a = body_of(contact.a);
         return is_owned(a) || (presence[a] == Presence::everywhere && is_owned(body_of(contact.b)));
     }

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "compute/compile/state_editor.h"
-#include "compute/fields/body.h"
-#include "compute/fields/check.h"
 #include "compute/scene/validator.h"
+#include "compute/schema/body.h"
+#include "compute/schema/check.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/body/quarantine.h"
 #include "shaders/physics/sleep/sleep.h"
@@ -43,7 +43,7 @@ void check(const BodyChange& change, const Body& body, const std::string& name) 
 
 // As in a scene: what is of unit length, to rounding, stays.
 vec4 unit(vec4 q) {
-    fields::make_unit(Examination(), q, "");
+    schema::make_unit(Examination(), q, "");
     return q;
 }
 
@@ -140,7 +140,7 @@ void World::Impl::change(std::size_t index, const std::function<void(Body&)>& ed
     Body changed = body;
     body.shape = std::move(shape);
     edit(changed);
-    fields::check_fields(Examination("bodies", "body", index, body.name), changed);
+    schema::check_fields(Examination("bodies", "body", index, body.name), changed);
     keep_original(index);
     shape = std::move(body.shape);
     body = std::move(changed);

@@ -14,9 +14,9 @@
 #include <map>
 #include <utility>
 
-#include "compute/fields/check.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/validator.h"
+#include "compute/schema/check.h"
 #include "compute/statistics.h"
 #include "compute/world/checkpoint_seal.h"
 #include "compute/world/scene_bytes.h"
@@ -139,7 +139,7 @@ const std::vector<std::byte>& World::Impl::edits_now() const {
         if (is_of(i, Origin::added)) added.push_back(i);
     out.put_list(std::span<const std::uint64_t>(changed));
     for (const std::uint64_t i : changed)
-        fields::for_each_field<Body>([&](const auto& field) {
+        schema::for_each_field<Body>([&](const auto& field) {
             if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) put_value(out, scene.bodies[i].*field.member);
         });
     out.put_list(std::span<const std::uint64_t>(added));
@@ -165,7 +165,7 @@ World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) con
     made.freed = in.take_list<std::uint64_t>();
     for (const std::uint64_t index : in.take_list<std::uint64_t>()) {
         Body& body = made.changed.emplace_back(index, Body{}).second;
-        fields::for_each_field<Body>([&](const auto& field) {
+        schema::for_each_field<Body>([&](const auto& field) {
             if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) take_value(in, body.*field.member);
         });
     }
@@ -221,7 +221,7 @@ void World::Impl::check_edits(Edits& made, std::size_t bodies_at_start) {
     try {
         for (auto& [index, body] : made.changed) {
             require(index < bodies_at_start, "it changes a body that the scene lacks");
-            fields::check_fields(Examination{}, body);
+            schema::check_fields(Examination{}, body);
         }
         check_world_fields(made.fields);
     } catch (const SceneError& error) {
@@ -418,13 +418,13 @@ void World::save_in_pieces(const TakePiece& take) const {
     const Impl& in = local();
     if (in.shared) return in.put_shares(take);
     const std::vector<std::byte> all = save();
-    if (in.runner->rank() == 0) take(0, all);
+    if (!in.ranks || in.ranks->exchange().rank() == 0) take(0, all);
 }
 
 void World::Impl::put_shares(const TakePiece& take) const {
-    const bool first = runner->rank() == 0;
-    runner->download_share();
-    const StateParts parts(state, *runner);
+    const bool first = ranks->exchange().rank() == 0;
+    ranks->download_share();
+    const StateParts parts(state, ranks->exchange());
     ByteWriter front, back;
     front.put_list(std::span<const std::byte>(edits));  // since the shares were made
     put_world(front);

@@ -1,4 +1,4 @@
-// Bodies, joints, vehicles and settings as bytes, by their field tables (compute/fields).
+// Bodies, joints, vehicles and settings as bytes, by their field tables (compute/schema).
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "compute/fields/body.h"
-#include "compute/fields/check.h"
-#include "compute/fields/document.h"
-#include "compute/fields/joint.h"
-#include "compute/fields/vehicle.h"
+#include "compute/schema/body.h"
+#include "compute/schema/check.h"
+#include "compute/schema/joint.h"
+#include "compute/schema/scene.h"
+#include "compute/schema/vehicle.h"
 #include "compute/world/byte_stream.h"
 
 namespace scree {
@@ -37,7 +37,7 @@ void for_each_member(Struct& one, const Visit& visit) {
         visit(one.shape), visit(one.position), visit(one.orientation), visit(one.density), visit(one.filter);
         visit(one.role), visit(one.material);
     } else {
-        fields::for_each_field<Kind>([&](const auto& field) { visit(one.*field.member); });
+        schema::for_each_field<Kind>([&](const auto& field) { visit(one.*field.member); });
     }
 }
 
@@ -45,16 +45,16 @@ template <class Value>
 void put_value(ByteWriter& out, const Value& value) {
     if constexpr (std::is_same_v<Value, std::string>) {
         out.put_text(value);
-    } else if constexpr (fields::is_optional<Value>) {
+    } else if constexpr (schema::is_optional<Value>) {
         out.put(static_cast<std::uint8_t>(value.has_value()));
         if (value) put_value(out, *value);
-    } else if constexpr (fields::is_list<Value>) {
+    } else if constexpr (schema::is_list<Value>) {
         out.put(std::uint64_t{value.size()});
         for (const auto& one : value) put_value(out, one);
     } else if constexpr (is_variant<Value>) {
         out.put(static_cast<std::uint8_t>(value.index()));
         std::visit([&](const auto& one) { put_value(out, one); }, value);
-    } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || fields::HasTable<Value>) {
+    } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || schema::HasTable<Value>) {
         for_each_member(value, [&](const auto& member) { put_value(out, member); });
     } else {
         out.put(value);
@@ -77,20 +77,20 @@ template <class Value>
 void take_value(ByteReader& in, Value& value) {
     if constexpr (std::is_same_v<Value, std::string>) {
         value = in.take_text();
-    } else if constexpr (fields::is_optional<Value>) {
+    } else if constexpr (schema::is_optional<Value>) {
         value.reset();
         if (in.take<std::uint8_t>() != 0) take_value(in, value.emplace());
-    } else if constexpr (fields::is_list<Value>) {
+    } else if constexpr (schema::is_list<Value>) {
         value.clear();
         for (auto left = in.take<std::uint64_t>(); left > 0; --left) take_value(in, value.emplace_back());
     } else if constexpr (is_variant<Value>) {
         choose_alternative(value, in.take<std::uint8_t>());
         std::visit([&](auto& one) { take_value(in, one); }, value);
-    } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || fields::HasTable<Value>) {
+    } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || schema::HasTable<Value>) {
         for_each_member(value, [&](auto& member) { take_value(in, member); });
-    } else if constexpr (fields::HasWords<Value>) {
+    } else if constexpr (schema::HasWords<Value>) {
         const auto number = in.take<std::underlying_type_t<Value>>();
-        if (number < 0 || static_cast<std::size_t>(number) >= fields::words<Value>.size())
+        if (number < 0 || static_cast<std::size_t>(number) >= schema::words<Value>.size())
             throw CheckpointError("the checkpoint is damaged: a word that is not known");
         value = static_cast<Value>(number);
     } else {

@@ -1,4 +1,4 @@
-// World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Runner::share_out).
+// World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Ranks::share_out).
 //
 // Of the scene a rank keeps the bodies that do not move, and those of a range of ids: it is their home. What is asked of all
 // bodies in the order of ids, hashes and sums, is found there. All else brings the whole world back to every rank.
@@ -6,10 +6,9 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
+#include "compute/distributed/packing.h"
 #include "compute/world/scene_bytes.h"
 #include "compute/world/share_start.h"
 #include "compute/world/world_impl.h"
@@ -18,8 +17,6 @@ namespace scree {
 
 namespace {
 
-using Bytes = std::vector<std::byte>;
-
 // Steps without a look at the whole world after which it is shared out again.
 constexpr int steps_to_share = 8;
 
@@ -27,20 +24,6 @@ struct TravellingBody {
     std::uint32_t id = 0;
     BodyRecord now;
 };
-
-template <class Record>
-void append_record(Bytes& bytes, const Record& record) {
-    static_assert(std::is_trivially_copyable_v<Record>);
-    const std::size_t at = bytes.size();
-    bytes.resize(at + sizeof record);
-    std::memcpy(&bytes[at], &record, sizeof record);
-}
-template <class Record>
-Record record_at(const Bytes& bytes, std::size_t at) {
-    Record record;
-    std::memcpy(static_cast<void*>(&record), &bytes.at(at), sizeof record);
-    return record;
-}
 
 const HullForm* form_of(const Body& body) {
     const Hull* hull = std::get_if<Hull>(&body.shape);
@@ -51,13 +34,13 @@ const HullForm* form_of(const Body& body) {
 
 void World::share_out() {
     Impl& in = local();
-    if (in.runner->ranks() > 1 && !in.shared && in.can_be_shared()) in.share_out();
+    if (in.ranks && !in.shared && in.can_be_shared()) in.share_out();
 }
 
 std::optional<World::Share> World::share() const {
     const Impl& in = local();
     if (!in.shared) return std::nullopt;
-    in.runner->download_share();
+    in.ranks->download_share();
     return Share{in.state, in.shared->still, in.shared->hulls};
 }
 
@@ -68,11 +51,11 @@ bool World::Impl::can_be_shared() const {
            !events.settings().any() && std::all_of(grips.begin(), grips.end(), is_dropped) && scene.joints.empty() &&
            scene.vehicles.empty() && scene.exclusions.empty() && state.body_count == state.fixed().first_part &&
            std::find(gone.begin(), gone.end(), std::uint8_t{1}) == gone.end() &&
-           std::all_of(scene.bodies.begin(), scene.bodies.end(), is_plain) && runner->can_share_out();
+           std::all_of(scene.bodies.begin(), scene.bodies.end(), is_plain) && ranks->can_share_out();
 }
 
 void World::Impl::share_out_when_due() {
-    if (runner->ranks() == 1 || shared) return;
+    if (!ranks || shared) return;
     const bool waits = steps_until_shared > 0;
     if (waits || !can_be_shared()) {
         steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
@@ -83,9 +66,9 @@ void World::Impl::share_out_when_due() {
 
 void World::Impl::share_out() {
     (void)edits_now();  // for checkpoints: from the whole scene
-    runner->share_out();
+    ranks->share_out();
     Shared& own = shared.emplace();
-    own.divide(scene.bodies.size(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
+    own.divide(scene.bodies.size(), ranks->exchange());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         own.note(scene.bodies[i], i);
         if (own.is_home(i)) own.home.push_back(std::move(scene.bodies[i]));
@@ -93,10 +76,11 @@ void World::Impl::share_out() {
     std::vector<Body>().swap(scene.bodies);  // its memory, too
 }
 
-void World::Impl::Shared::divide(std::size_t of_whole, std::size_t ranks, std::size_t rank) {
+void World::Impl::Shared::divide(std::size_t of_whole, const Exchange& exchange) {
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
     bodies = of_whole;
     per_rank = (bodies + ranks - 1) / ranks;
-    first = std::min(bodies, rank * per_rank);
+    first = std::min(bodies, static_cast<std::size_t>(exchange.rank()) * per_rank);
 }
 
 void World::Impl::Shared::note(const Body& body, std::size_t id) {
@@ -110,13 +94,14 @@ void World::Impl::Shared::note(const Body& body, std::size_t id) {
 std::unique_ptr<World::Impl> World::Impl::of_streamed(const StreamedScene& scene, const Settings& settings,
                                                       std::unique_ptr<Runner> runner) {
     const Settings with = scree::checked(settings);
-    if (runner->can_begin_shared()) {
-        ShareStart start(scene, with, runner->group_size(), static_cast<std::uint32_t>(runner->ranks()));
+    if (Ranks* const ranks = runner->ranks()) {
+        const Exchange& exchange = ranks->exchange();
+        ShareStart start(scene, with, runner->group_size(), static_cast<std::uint32_t>(exchange.ranks()));
         if (start.survey()) {
             Shared own;
-            own.divide(start.bodies(), static_cast<std::size_t>(runner->ranks()), static_cast<std::size_t>(runner->rank()));
-            const std::vector<std::uint64_t> borders = runner->borders_of(start.find_places());
-            std::vector<int> owners = start.keep_own(borders, runner->rank(), [&](const Body& body, std::size_t id) {
+            own.divide(start.bodies(), exchange);
+            const std::vector<std::uint64_t> borders = ranks->borders_of(start.find_places());
+            std::vector<int> owners = start.keep_own(borders, exchange.rank(), [&](const Body& body, std::size_t id) {
                 own.note(body, id);
                 if (own.is_home(id)) own.home.push_back(body);
             });
@@ -136,14 +121,14 @@ World::Impl::Impl(ShareStart& start, const Settings& t, std::unique_ptr<Runner> 
       fingerprint(start.fingerprint()) {
     shared.emplace(std::move(own));
     (void)edits_now();
-    runner->attach_share(state, std::move(owners), start.own_ids(), [&] { start.put_own(state); });
+    ranks->attach_share(state, std::move(owners), start.own_ids(), [&] { start.put_own(state); });
 }
 
 void World::Impl::make_whole() {
-    if (runner->ranks() > 1 && steps > 0) steps_until_shared = steps_to_share;
+    if (ranks && steps > 0) steps_until_shared = steps_to_share;
     if (runner->in_place()) state.allocate_all();
     if (!shared) return;
-    runner->make_whole();
+    ranks->make_whole();
     ByteWriter out;
     for (Body& body : shared->home) {
         if (body.motion != Motion::dynamic) continue;
@@ -152,11 +137,11 @@ void World::Impl::make_whole() {
         if (form) body.shape = Box{};
         put_value(out, body);
     }
-    const std::vector<Bytes> told = runner->gather(out.bytes());
+    const std::vector<Bytes> received = ranks->exchange().all_gather(out.bytes());
     std::vector<Body> bodies(shared->bodies);
     for (auto& [id, body] : shared->still) bodies[id] = std::move(body);
-    for (std::size_t r = 0; r < told.size(); ++r) {
-        ByteReader in(told[r]);
+    for (std::size_t r = 0; r < received.size(); ++r) {
+        ByteReader in(received[r]);
         for (std::size_t id = r * shared->per_rank; !in.at_end(); ++id) {
             if (shared->still.contains(id)) continue;
             const auto hull = in.take<std::uint32_t>();
@@ -170,19 +155,19 @@ void World::Impl::make_whole() {
 
 // Of the bodies at home here, in the order of ids.
 std::vector<BodyRecord> World::Impl::records_at_home() const {
-    runner->download_share();
-    std::vector<Bytes> to(static_cast<std::size_t>(runner->ranks()));
+    ranks->download_share();
+    std::vector<Bytes> to(static_cast<std::size_t>(ranks->exchange().ranks()));
     std::vector<BodyRecord> records(shared->home.size());
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row)
         if (state.is_owned(row)) {
             const std::uint32_t id = state.id_of(row);
-            append_record(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
+            scree::put(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
         }
     for (const auto& [id, body] : shared->still)
         if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
-    for (const Bytes& told : runner->swap(to))
-        for (std::size_t at = 0; at < told.size(); at += sizeof(TravellingBody)) {
-            const auto body = record_at<TravellingBody>(told, at);
+    for (const Bytes& received : ranks->exchange().all_to_all(to))
+        for (Unpacker from(received); from.has_more();) {
+            const auto body = from.take<TravellingBody>();
             records.at(body.id - shared->first) = body.now;
         }
     return records;
@@ -194,13 +179,14 @@ std::uint64_t World::Impl::hash_of_shares() const {
     for (const BodyRecord& now : records_at_home()) append_hashed(values, now.pose, now.velocity);
     XXH64_state_t hash;
     XXH64_reset(&hash, 0);
-    for (int rank = 0; rank < runner->ranks(); ++rank) {
-        Bytes said;
-        if (rank == runner->rank()) {
+    Exchange& exchange = ranks->exchange();
+    for (int rank = 0; rank < exchange.ranks(); ++rank) {
+        Bytes sent;
+        if (rank == exchange.rank()) {
             XXH64_update(&hash, values.data(), values.size() * sizeof(float));
-            append_record(said, hash);
+            scree::put(sent, hash);
         }
-        hash = record_at<XXH64_state_t>(runner->gather(said)[static_cast<std::size_t>(rank)], 0);
+        Unpacker(exchange.all_gather(sent)[static_cast<std::size_t>(rank)]).take(hash);
     }
     return XXH64_digest(&hash);
 }
@@ -210,10 +196,10 @@ Statistics World::Impl::statistics_of_shares() const {
     const std::vector<BodyRecord> records = records_at_home();
     for (std::size_t i = 0; i < records.size(); ++i)
         own.add(shared->home[i], records[i], scene.gravity, shared->planes, state.fixed().sleep_steps);
-    Bytes said;
-    append_record(said, own);
+    Bytes sent;
+    scree::put(sent, own);
     BodySums all;
-    for (const Bytes& told : runner->gather(said)) all.add(record_at<BodySums>(told, 0));
+    for (const Bytes& received : ranks->exchange().all_gather(sent)) all.add(Unpacker(received).take<BodySums>());
     Statistics found = all.statistics();
     found.spin_limited = state.counted().spin_limited;
     add_contacts(all_contact_sums(), found);

@@ -82,10 +82,6 @@ std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std:
     return all;
 }
 
-StartLengths StartLengths::of(const State& s) {
-    return {s.hulls.size(), s.pieces.size(), s.tyres.size()};
-}
-
 std::uint64_t fingerprint_of(const State& state) {
     std::vector<physics::BodyProperties> properties = state.properties;
     for (physics::BodyProperties& row : properties) row.flags &= ~physics::ROW_LARGE;  // depends on the settings
@@ -127,17 +123,9 @@ void put_shapes(ByteWriter& out, const State& state, const StartLengths& at_star
     out.put_list(std::span<const physics::JointBlock>(portable(state.joint_blocks)));
     out.put_list(std::span<const physics::BlockBody>(portable(state.block_bodies)));
     out.put_list(std::span(state.vehicles));
-    out.put_list(behind(state.hulls, at_start.hulls));
-    out.put_list(std::span(state.parts));  // those of removed bodies are used again
-    out.put_list(std::span(state.fractures));
-    out.put_list(behind(state.pieces, at_start.pieces));
-    out.put_list(behind(state.tyres, at_start.tyres));
-    out.put_list(std::span(state.filters));
-    out.put_list(std::span(state.exclusions));
-    out.put_list(std::span(state.surfaces));
-    out.put_list(std::span(state.immersions));
-    out.put_list(std::span(state.births));
-    out.put_list(std::span(state.gravities));
+#define SCREE_PUT(name) out.put_list(behind(state.name, at_start.of(Table::name)));
+    SCREE_EDITED_OF_SHAPES(SCREE_PUT)
+#undef SCREE_PUT
 }
 
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
@@ -164,27 +152,20 @@ StateBytes::StateBytes(ByteReader& in, const State& own, const StartLengths& at_
     for (const auto& [table, count] :
          stepped_tables(rows, counts_.contacts, rows_bounce_ || parameters_.least_restitution > 0, which))
         tables_.emplace_back(table, in.take_bytes(count * record_bytes(table)));
-    joints_ = in.take_records(sizeof(physics::Joint));
-    joint_blocks_ = in.take_records(sizeof(physics::JointBlock));
-    block_bodies_ = in.take_records(sizeof(physics::BlockBody));
-    vehicles_ = in.take_records(sizeof(physics::Vehicle));
-    constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
-                               sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
-                               sizeof(physics::uvec4),      sizeof(physics::Surface),    sizeof(physics::Immersion),
-                               sizeof(physics::uint),       sizeof(physics::uvec4)};
-    for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
-    const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
+#define SCREE_TAKE(name) edited_.name = in.take_records(sizeof(physics::records::name));
+    SCREE_EDITED_OF_JOINTS(SCREE_TAKE)
+    SCREE_EDITED_OF_SHAPES(SCREE_TAKE)
+#undef SCREE_TAKE
     const auto in_range = [](const auto& list, std::size_t end) {
         return std::all_of(list.begin(), list.end(), [&](std::uint32_t one) { return one < end; });
     };
-    if (body_count_ > parameters_.first_part || parameters_.first_part > rows || rows - parameters_.first_part != parts ||
-        (shapes_[5].size() != 0 && shapes_[5].size() != rows * sizeof(physics::uvec4)) ||
-        (!rows_.empty() && rows_.size() != body_count_) || !in_range(rows_, parameters_.first_part) ||
-        !in_range(joint_records_, joints_.size() / sizeof(physics::Joint)) ||
-        parameters_.joint_blocks > joint_blocks_.size() / sizeof(physics::JointBlock) ||
-        parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1 ||
-        shapes_[9].size() != (physics::has_copies(parameters_) ? parameters_.copies * sizeof(physics::uint) : 0) ||
-        (shapes_[10].size() != 0 && shapes_[10].size() != parameters_.copies * sizeof(physics::uvec4)))
+    if (body_count_ > parameters_.first_part || parameters_.first_part > rows ||
+        rows - parameters_.first_part != edited_.parts.size() ||
+        (edited_.filters.size() != 0 && edited_.filters.size() != rows) || (!rows_.empty() && rows_.size() != body_count_) ||
+        !in_range(rows_, parameters_.first_part) || !in_range(joint_records_, edited_.joints.size()) ||
+        parameters_.joint_blocks > edited_.joint_blocks.size() || parameters_.vehicles > edited_.vehicles.size() ||
+        substeps_ < 1 || edited_.births.size() != (physics::has_copies(parameters_) ? parameters_.copies : 0) ||
+        (edited_.gravities.size() != 0 && edited_.gravities.size() != parameters_.copies))
         refuse();
     if (which == SteppedTables::all) check(own);
 }
@@ -193,32 +174,13 @@ void StateBytes::check(const State& own) const {
     const auto bytes = [&](Table table) {
         return std::find_if(tables_.begin(), tables_.end(), [&](const auto& one) { return one.first == table; })->second;
     };
-    check_tables({.parameters = parameters_,
-                  .counts = counts_,
-                  .body_count = body_count_,
-                  .rows = rows_,
-                  .properties = bytes(Table::properties),
-                  .poses = bytes(Table::poses),
-                  .velocities = bytes(Table::velocities),
-                  .first_contacts = bytes(Table::first_contacts),
-                  .contacts = bytes(Table::contacts),
-                  .joints = joints_,
-                  .joint_blocks = joint_blocks_,
-                  .block_bodies = block_bodies_,
-                  .vehicles = vehicles_,
-                  .hulls = shapes_[0],
-                  .parts = shapes_[1],
-                  .fractures = shapes_[2],
-                  .pieces = shapes_[3],
-                  .tyres = shapes_[4],
-                  .filters = shapes_[5],
-                  .exclusions = shapes_[6],
-                  .surfaces = shapes_[7],
-                  .immersions = shapes_[8],
-                  .hulls_at_start = at_start_.hulls,
-                  .pieces_at_start = at_start_.pieces,
-                  .tyres_at_start = at_start_.tyres},
-                 own);
+    SavedTables saved{edited_, parameters_, counts_, body_count_, rows_, at_start_};
+    saved.properties = bytes(Table::properties);
+    saved.poses = bytes(Table::poses);
+    saved.velocities = bytes(Table::velocities);
+    saved.first_contacts = bytes(Table::first_contacts);
+    saved.contacts = bytes(Table::contacts);
+    check_tables(saved, own);
 }
 
 bool StateBytes::follow_from(const Settings& settings, vec3 gravity) const {
@@ -240,23 +202,12 @@ TableRanges StateBytes::restore(State& state) const {
     state.substeps = substeps_;
     state.body_count = body_count_;
     state.joint_records = joint_records_;
-    assign(state.joints, joints_);
-    assign(state.joint_blocks, joint_blocks_);
-    assign(state.block_bodies, block_bodies_);
+#define SCREE_ASSIGN(name) assign(state.name, edited_.name.bytes(), at_start_.of(Table::name));
+    SCREE_EDITED_OF_JOINTS(SCREE_ASSIGN)
+    SCREE_EDITED_OF_SHAPES(SCREE_ASSIGN)
+#undef SCREE_ASSIGN
     if (!have_groups(state.joint_groups, state.joints, state.joint_blocks, p.joint_blocks))
         state.joint_groups = joint_groups(state.joints, state.joint_blocks, p.joint_blocks);
-    assign(state.vehicles, vehicles_);
-    assign(state.hulls, shapes_[0], at_start_.hulls);
-    assign(state.parts, shapes_[1]);
-    assign(state.fractures, shapes_[2]);
-    assign(state.pieces, shapes_[3], at_start_.pieces);
-    assign(state.tyres, shapes_[4], at_start_.tyres);
-    assign(state.filters, shapes_[5]);
-    assign(state.exclusions, shapes_[6]);
-    assign(state.surfaces, shapes_[7]);
-    assign(state.immersions, shapes_[8]);
-    assign(state.births, shapes_[9]);
-    assign(state.gravities, shapes_[10]);
     for (const auto& [table, count] : stepped_tables(0, 0, false, SteppedTables::all)) state.make(table);
     state.allocate();
     std::span<const std::byte> impacts;
@@ -276,20 +227,11 @@ TableRanges StateBytes::restore(State& state) const {
     changed.push_back({Table::counts, 0, 1});
     changed.push_back({Table::ids, 0, p.bodies});
     append(changed, joint_structure_ranges(state));
-    const auto add = [&](Table table, std::size_t first, std::size_t size) {
-        if (size > first) changed.push_back({table, first, size - first});
-    };
-    add(Table::hulls, at_start_.hulls, state.hulls.size());
-    add(Table::parts, 0, state.parts.size());
-    add(Table::fractures, 0, state.fractures.size());
-    add(Table::pieces, at_start_.pieces, state.pieces.size());
-    add(Table::tyres, at_start_.tyres, state.tyres.size());
-    add(Table::filters, 0, state.filters.size());
-    add(Table::exclusions, 0, state.exclusions.size());
-    add(Table::surfaces, 0, state.surfaces.size());
-    add(Table::immersions, 0, state.immersions.size());
-    add(Table::births, 0, state.births.size());
-    add(Table::gravities, 0, state.gravities.size());
+#define SCREE_ADD(name)                                                                 \
+    if (const std::size_t first = at_start_.of(Table::name); state.name.size() > first) \
+        changed.push_back({Table::name, first, state.name.size() - first});
+    SCREE_EDITED_OF_SHAPES(SCREE_ADD)
+#undef SCREE_ADD
     return changed;
 }
 

@@ -1,7 +1,6 @@
 // The tables of a state as bytes and back, for checkpoints.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,16 +10,9 @@
 #include "compute/tables/state.h"
 #include "compute/tables/table_ranges.h"
 #include "compute/world/byte_stream.h"
+#include "compute/world/edited_tables.h"
 
 namespace scree {
-
-// Lengths of tables whose records never change: edits append to them. A checkpoint holds what lies behind those of the scene
-// with which the world was made.
-struct StartLengths {
-    std::size_t hulls = 0, pieces = 0, tyres = 0;
-    static StartLengths of(const State& state);
-    bool operator==(const StartLengths&) const = default;
-};
 
 // XXH64 over what a new state has from its scene; equal for all settings, backends and threads.
 std::uint64_t fingerprint_of(const State& state);
@@ -74,8 +66,7 @@ private:
     bool rows_bounce_;
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
-    std::span<const std::byte> joints_, joint_blocks_, block_bodies_, vehicles_;
-    std::array<std::span<const std::byte>, 11> shapes_;  // those of StartLengths: behind `at_start`
+    EditedTables edited_;
     StartLengths at_start_;
     SteppedTables which_;
 };

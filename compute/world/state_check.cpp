@@ -10,7 +10,7 @@
 #include <string>
 
 #include "compute/checkpoint.h"
-#include "compute/fields/body.h"
+#include "compute/schema/body.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/collide/triangle.h"
@@ -83,11 +83,11 @@ private:
     }
 
     physics::uvec4 quad(std::size_t place) const {
-        return place < saved_.hulls_at_start ? own_.hulls[place] : saved_.hulls[place - saved_.hulls_at_start];
+        return place < saved_.at_start.hulls ? own_.hulls[place] : saved_.hulls[place - saved_.at_start.hulls];
     }
     // The layout of shape_data.h.
     bool is_hull(std::size_t place, bool triangle) const {
-        const std::size_t size = saved_.hulls_at_start + saved_.hulls.size();
+        const std::size_t size = saved_.at_start.hulls + saved_.hulls.size();
         if (place >= size) return false;
         const physics::uvec4 head = quad(place);
         const std::size_t vertices = head.x, faces = head.y, across = head.z;
@@ -138,13 +138,13 @@ private:
         require(body.shape <= physics::SHAPE_NONE, "row", row, "has a shape that is not known");
         if ((hull || triangle) && known_hulls_.insert({body.shape_data, triangle}).second)
             require(is_hull(body.shape_data, triangle), "row", row, "has a hull that does not fit the table of hulls");
-        require(physics::tyre_of(body) <= saved_.tyres_at_start + saved_.tyres.size(), "row", row,
+        require(physics::tyre_of(body) <= saved_.at_start.tyres + saved_.tyres.size(), "row", row,
                 "has a tyre that the table of tyres lacks");
         require((body.flags >> physics::ROW_SURFACE_SHIFT) <= saved_.surfaces.size(), "row", row,
                 "has a material that the table of surfaces lacks");
     }
 
-    static bool is_factor(float scale) { return fields::field_of(&Body::gravity_scale).range.holds(scale); }
+    static bool is_factor(float scale) { return schema::field_of(&Body::gravity_scale).range.holds(scale); }
     static bool is_pose(const physics::vec3& position, const physics::vec4& q) {
         return finite(position) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-3f;
     }
@@ -264,7 +264,7 @@ private:
         for (std::size_t k = 0; k < saved_.fractures.size(); ++k) {
             const physics::Fracturing fracture = saved_.fractures[k];
             require(run_in(fracture.first_row, fracture.count, p_.first_part) &&
-                        run_in(fracture.first_pose, fracture.count, saved_.pieces_at_start + saved_.pieces.size()),
+                        run_in(fracture.first_pose, fracture.count, saved_.at_start.pieces + saved_.pieces.size()),
                     "fracture", k, "has fragments that are none");
         }
     }

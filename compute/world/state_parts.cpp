@@ -30,7 +30,7 @@ std::span<const std::byte> bytes_of_list(const std::vector<Record>& records) {
 
 }  // namespace
 
-StateParts::StateParts(const State& share, const Runner& runner) : state_(share), runner_(runner) {
+StateParts::StateParts(const State& share, Exchange& exchange) : state_(share), exchange_(exchange) {
     const physics::Parameters& p = share.fixed();
     rows_ = *share.first_part_id + (p.bodies - p.first_part);
     std::uint64_t own = 0;
@@ -38,7 +38,7 @@ StateParts::StateParts(const State& share, const Runner& runner) : state_(share)
     ByteWriter out;
     out.put(own);
     out.put(share.rows_bounce());
-    for (const std::vector<std::byte>& one : runner.gather(out.bytes())) {
+    for (const Bytes& one : exchange.all_gather(out.bytes())) {
         ByteReader in(one);
         contacts_ += in.take<std::uint64_t>();
         rows_bounce_ |= in.take<bool>();
@@ -81,14 +81,14 @@ void StateParts::put_tables(const Take& take) const {
             else
                 put_contacts(table, first, last, take);
         }
-        if (table == Table::first_contacts && runner_.rank() == 0) take(std::as_bytes(std::span(&before, 1)));
+        if (table == Table::first_contacts && exchange_.rank() == 0) take(std::as_bytes(std::span(&before, 1)));
     }
 }
 
-std::vector<std::vector<std::byte>> StateParts::told(std::vector<std::byte> said) const {
-    std::vector<std::vector<std::byte>> to(static_cast<std::size_t>(runner_.ranks()));
-    to[0] = std::move(said);
-    return runner_.swap(to);
+std::vector<Bytes> StateParts::gathered(Bytes own) const {
+    std::vector<Bytes> to(static_cast<std::size_t>(exchange_.ranks()));
+    to[0] = std::move(own);
+    return exchange_.all_to_all(to);
 }
 
 void StateParts::put_rows(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const {
@@ -98,7 +98,7 @@ void StateParts::put_rows(Table table, std::uint32_t first, std::uint32_t last, 
     for (std::uint32_t whole = first; whole < last; ++whole) {
         const std::uint32_t row = state_.row_with(whole);
         // What does not move is on all ranks.
-        if (row == physics::NONE || !(runner_.rank() == 0 ? state_.is_stepped(row) : state_.is_owned(row))) continue;
+        if (row == physics::NONE || !(exchange_.rank() == 0 ? state_.is_stepped(row) : state_.is_owned(row))) continue;
         out.put(whole);
         if (table != Table::properties) {
             out.put_bytes(records.subspan(row * bytes, bytes));
@@ -108,11 +108,11 @@ void StateParts::put_rows(Table table, std::uint32_t first, std::uint32_t last, 
             out.put(body);
         }
     }
-    const std::vector<std::vector<std::byte>> all = told(std::move(out.bytes()));
-    if (runner_.rank() != 0) return;
+    const std::vector<Bytes> all = gathered(std::move(out.bytes()));
+    if (exchange_.rank() != 0) return;
     std::vector<std::byte> piece((last - first) * bytes);
     std::uint32_t found = 0;
-    for (const std::vector<std::byte>& one : all)
+    for (const Bytes& one : all)
         for (ByteReader in(one); !in.at_end(); ++found) {
             const auto whole = in.take<std::uint32_t>();
             const std::span<const std::byte> record = in.take_bytes(bytes);
@@ -128,7 +128,7 @@ void StateParts::for_each_contact(std::uint32_t first, std::uint32_t last, const
         const std::uint32_t row = state_.row_with(whole);
         if (row == physics::NONE) continue;
         for (std::uint32_t k = state_.first_contacts[row]; k < state_.first_contacts[row + 1]; ++k)
-            if (state_.tells_of(state_.contacts[k])) visit(whole, k);
+            if (state_.owns_contact(state_.contacts[k])) visit(whole, k);
     }
 }
 
@@ -136,9 +136,9 @@ void StateParts::put_first_contacts(std::uint32_t first, std::uint32_t last, std
     ByteWriter out;
     for_each_contact(first, last, [&](std::uint32_t whole, std::uint32_t) { out.put(whole); });
     std::vector<std::uint32_t> starts(last - first);
-    for (const std::vector<std::byte>& one : told(std::move(out.bytes())))
+    for (const Bytes& one : gathered(std::move(out.bytes())))
         for (ByteReader in(one); !in.at_end();) ++starts[in.take<std::uint32_t>() - first];
-    if (runner_.rank() != 0) return;
+    if (exchange_.rank() != 0) return;
     for (std::uint32_t& start : starts) before += std::exchange(start, before);
     take(bytes_of_list(starts));
 }
@@ -157,8 +157,8 @@ void StateParts::put_contacts(Table table, std::uint32_t first, std::uint32_t la
     });
     const std::size_t bytes = record_bytes(table);
     std::vector<std::pair<ContactPlace, std::span<const std::byte>>> piece;
-    const std::vector<std::vector<std::byte>> all = told(std::move(out.bytes()));
-    for (const std::vector<std::byte>& one : all)
+    const std::vector<Bytes> all = gathered(std::move(out.bytes()));
+    for (const Bytes& one : all)
         for (ByteReader in(one); !in.at_end();) {
             const auto place = in.take<ContactPlace>();
             piece.emplace_back(place, in.take_bytes(bytes));

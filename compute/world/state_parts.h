@@ -1,7 +1,7 @@
-// The tables of a world whose ranks have their shares alone (Runner::share_out) as the bytes of put_state(), of which no rank
+// The tables of a world whose ranks have their shares alone (Ranks::share_out) as the bytes of put_state(), of which no rank
 // holds more than a piece.
 //
-// Piece by piece, a range of rows of one table, ranks tell the first one the records that they own. Rows are those of the whole
+// Piece by piece, a range of rows of one table, ranks send the first one the records that they own. Rows are those of the whole
 // world, in which a body's is its id.
 #pragma once
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/runner.h"
+#include "compute/distributed/exchange.h"
 #include "compute/tables/state.h"
 
 namespace scree {
@@ -21,7 +21,7 @@ class StateParts {
 public:
     using Take = std::function<void(std::span<const std::byte>)>;
     // Collective, as all that follows: counts the contacts of all ranks.
-    StateParts(const State& share, const Runner& runner);
+    StateParts(const State& share, Exchange& exchange);
     physics::Parameters parameters() const;  // of the whole state
     physics::Counts counts() const;
     bool rows_bounce() const { return rows_bounce_; }
@@ -34,13 +34,13 @@ private:
     void put_rows(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
     void put_first_contacts(std::uint32_t first, std::uint32_t last, std::uint32_t& before, const Take& take) const;
     void put_contacts(Table table, std::uint32_t first, std::uint32_t last, const Take& take) const;
-    // Calls visit(whole row, index) for the contacts that this rank tells of, by the rows that own them.
+    // Calls visit(whole row, index) for the contacts that this rank owns, by the rows that own them.
     template <class Visit>
     void for_each_contact(std::uint32_t first, std::uint32_t last, const Visit& visit) const;
-    std::vector<std::vector<std::byte>> told(std::vector<std::byte> said) const;  // by rank; empty on all but the first
+    std::vector<Bytes> gathered(Bytes own) const;  // by rank; empty on all but the first
 
     const State& state_;
-    const Runner& runner_;
+    Exchange& exchange_;
     std::uint32_t rows_ = 0;      // of the whole state
     std::uint64_t contacts_ = 0;  // likewise
     bool rows_bounce_ = false;    // those of some rank

@@ -30,7 +30,7 @@ void World::Impl::note_stillness() {
         still.uploaded == found.uploaded && std::memcmp(&still.parameters, &found.parameters, sizeof found.parameters) == 0;
     still = found;
     if (!repeats) still.steps = 1;
-    if (runner->ranks() > 1 || physics::any_stirs(state.counted()) || state.counted().broken > 0) still.steps = 0;
+    if (ranks || physics::any_stirs(state.counted()) || state.counted().broken > 0) still.steps = 0;
 }
 
 void World::Impl::pass_over(int count) {

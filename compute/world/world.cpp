@@ -55,8 +55,8 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
       settings(t),
       runner(std::move(r)),
       // On several ranks its share needs the working tables, or make_whole() makes them.
-      state(scene, settings, runner->group_size(), runner->in_place() && runner->ranks() == 1, static_cast<std::uint32_t>(copies),
-            static_cast<std::uint32_t>(runner->ranks())),
+      state(scene, settings, runner->group_size(), runner->in_place() && !ranks, static_cast<std::uint32_t>(copies),
+            ranks ? static_cast<std::uint32_t>(ranks->exchange().ranks()) : 1),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
@@ -94,11 +94,10 @@ void World::Impl::make_room_for_actions() {
 // The body that owns most pairs, from how the pairs were counted or listed. One rank alone may ask, which then talks to no other.
 std::string World::Impl::most_paired_body() const {
     const std::uint32_t bodies = state.fixed().bodies;
-    const bool is_rank = runner->ranks() > 1;
     const physics::uint overflow = state.counted().overflow;
-    if (bodies == 0 || (is_rank && (runner->backend() != "cpu" || overflow == 0))) return "";
-    if (!is_rank) runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
-    const bool are_counts = is_rank && (overflow & physics::OVERFLOW_PAIRS) != 0;  // its step ended before they were summed
+    if (bodies == 0 || (ranks && (runner->backend() != "cpu" || overflow == 0))) return "";
+    if (!ranks) runner->download({{Table::pair_starts, 0, bodies + 1}, {Table::velocities, 0, bodies}});
+    const bool are_counts = ranks && (overflow & physics::OVERFLOW_PAIRS) != 0;  // its step ended before they were summed
     const auto pairs_of = [&](std::uint32_t row) {
         return are_counts ? state.pair_starts[row] : state.pair_starts[row + 1] - state.pair_starts[row];
     };
@@ -199,7 +198,7 @@ int World::Impl::steps_alone(int count) {
     state.fixed().redo = 0;
     const std::uint64_t before = steps;
     const auto begin = Timeline::Clock::now();
-    const bool all = runner->steps(runner->ranks() > 1 ? 1 : count, steps);
+    const bool all = runner->steps(ranks ? 1 : count, steps);
     if (!all) {
         do make_room_for_lists();
         while (!runner->step());
@@ -391,13 +390,13 @@ ContactSums World::Impl::all_contact_sums() const {
         bring(contact_ranges);
         return contact_sums(state);
     }
-    runner->download_own_contacts();
+    ranks->download_own_contacts();
     const ContactSums own = contact_sums(state);
-    std::vector<std::byte> said(sizeof own);
-    std::memcpy(said.data(), &own, sizeof own);
+    Bytes sent(sizeof own);
+    std::memcpy(sent.data(), &own, sizeof own);
     ContactSums all, one;
-    for (const std::vector<std::byte>& told : runner->gather(said)) {
-        std::memcpy(&one, told.data(), sizeof one);
+    for (const Bytes& received : ranks->exchange().all_gather(sent)) {
+        std::memcpy(&one, received.data(), sizeof one);
         all = all + one;
     }
     return all;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/distributed/ranks.h"
 #include "compute/scene/copies.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/statistics.h"
@@ -38,6 +39,7 @@ struct World::Impl {
     Scene scene;
     Settings settings;
     std::unique_ptr<Runner> runner;
+    Ranks* const ranks = runner->ranks();  // null on one rank
     State state;
     std::map<std::size_t, physics::Action> actions;  // for the next step, by index of the body
     std::array<std::optional<Held>, most_grips> grips;
@@ -146,7 +148,7 @@ struct World::Impl {
         std::vector<Plane> planes;          // likewise
         std::vector<Hull> hulls;            // of all bodies, each once
         std::map<const HullForm*, std::size_t> hull_places;
-        void divide(std::size_t of_whole, std::size_t ranks, std::size_t rank);
+        void divide(std::size_t of_whole, const Exchange& exchange);
         void note(const Body& body, std::size_t id);  // for all bodies, in the order of ids
         bool is_home(std::size_t id) const { return id >= first && id < first + per_rank; }
     };

@@ -16,8 +16,8 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
+#include "demos/program/outputs/report.h"
 #include "demos/program/progress.h"
-#include "demos/program/report.h"
 #include "host/files/file.h"
 
 namespace scree::demos {

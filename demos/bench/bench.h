@@ -7,8 +7,8 @@
 
 #include "compute/world.h"
 #include "demos/program/backend.h"
-#include "demos/program/options.h"
-#include "demos/program/table.h"
+#include "demos/program/options/options.h"
+#include "demos/program/outputs/table.h"
 
 namespace scree::demos {
 

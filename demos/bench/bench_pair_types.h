@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "demos/program/backend.h"
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 
 namespace scree::demos {
 

@@ -11,7 +11,7 @@
 
 #include "compute/scene/shape_geometry.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 
 namespace scree::demos {
 

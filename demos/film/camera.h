@@ -7,7 +7,7 @@
 
 #include "compute/scene_file/scene_json.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "host/canvas/camera.h"
 
 namespace scree::demos {

@@ -7,7 +7,7 @@
 
 #include "compute/world.h"
 #include "demos/film/channels.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

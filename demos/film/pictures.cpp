@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 
+#include "compute/distributed/ranks.h"
 #include "compute/tables/state.h"
 #include "demos/film/camera.h"
 #include "demos/film/camera_track.h"
@@ -17,7 +18,7 @@
 #include "demos/film/motion_blur.h"
 #include "demos/film/rank_parts.h"
 #include "demos/film/style.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "host/canvas/canvas.h"
 #include "host/canvas/overlay.h"
 #include "host/files/file.h"
@@ -79,7 +80,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
 }
 
 bool can_be_parts(const PictureOptions& options, World& world) {
-    return world.runner().ranks() > 1 && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty();
+    return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty();
 }
 
 // All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.
@@ -123,7 +124,10 @@ struct Pictures::Impl {
     bool drawing_one = false;         // the last one is being drawn, concurrently with later steps
     std::function<void()> make_drawing{};
     std::unique_ptr<PartDrawing> part{};  // on several ranks
-    bool is_first() const { return world.runner().rank() == 0; }
+    bool is_first() const {
+        const Ranks* ranks = world.runner().ranks();
+        return !ranks || ranks->exchange().rank() == 0;
+    }
 
     host::Image finished() {
         host::Image drawn = drawing->canvas().finish();
@@ -226,7 +230,7 @@ Pictures::~Pictures() = default;
 
 void Pictures::after_step() {
     Impl& in = *interior_;
-    const bool shares = in.world.runner().ranks() > 1;
+    const bool shares = in.world.runner().ranks() != nullptr;
     if (in.past && shares) (void)in.world.state();
     if (in.past && in.is_first()) in.past->keep(in.world);
     // Picture n, due at n / fps, is drawn after the nearest step.

@@ -11,7 +11,7 @@
 #include "demos/program/backend.h"
 #include "demos/program/copies.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

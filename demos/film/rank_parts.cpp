@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "compute/distributed/ranks.h"
 #include "compute/tables/state.h"
 #include "demos/film/drawing.h"
 #include "host/device_error.h"
@@ -12,35 +13,33 @@ namespace scree::demos {
 
 namespace {
 
-using Said = std::vector<std::byte>;
-
 // The range of `size` items that a rank joins.
 std::pair<std::size_t, std::size_t> range_of(std::size_t rank, std::size_t ranks, std::size_t size) {
     return {size * rank / ranks, size * (rank + 1) / ranks};
 }
 
 template <class Value>
-void append_values(Said& said, std::span<const Value> values) {
+void append_values(Bytes& sent, std::span<const Value> values) {
     const auto bytes = std::as_bytes(values);
-    said.insert(said.end(), bytes.begin(), bytes.end());
+    sent.insert(sent.end(), bytes.begin(), bytes.end());
 }
 template <class Value>
-Value value_at(const Said& told, std::size_t index, std::size_t behind = 0) {
+Value value_at(const Bytes& received, std::size_t index, std::size_t behind = 0) {
     Value value;
-    std::memcpy(&value, &told.at(behind + index * sizeof value), sizeof value);
+    std::memcpy(&value, &received.at(behind + index * sizeof value), sizeof value);
     return value;
 }
 
 }  // namespace
 
-bool all_ranks(const Runner& runner, bool say) {
-    const std::vector<Said> told = runner.gather({std::byte{say}});
-    return std::all_of(told.begin(), told.end(), [](const Said& one) { return one.at(0) != std::byte{0}; });
+bool all_ranks(Exchange& exchange, bool own) {
+    const std::vector<Bytes> received = exchange.all_gather({std::byte{own}});
+    return std::all_of(received.begin(), received.end(), [](const Bytes& one) { return one.at(0) != std::byte{0}; });
 }
 
 void RankParts::unite(std::span<float> depths) {
-    const auto ranks = static_cast<std::size_t>(runner_.ranks()), own = static_cast<std::size_t>(runner_.rank());
-    std::vector<Said> to(ranks);
+    const auto ranks = static_cast<std::size_t>(exchange_.ranks()), own = static_cast<std::size_t>(exchange_.rank());
+    std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
         const auto [first, last] = range_of(r, ranks, depths.size());
         append_values<float>(to[r], depths.subspan(first, last - first));
@@ -48,18 +47,18 @@ void RankParts::unite(std::span<float> depths) {
     const auto [first, last] = range_of(own, ranks, depths.size());
     std::vector<float> least(depths.begin() + static_cast<std::ptrdiff_t>(first),
                              depths.begin() + static_cast<std::ptrdiff_t>(last));
-    for (const Said& told : runner_.swap(to))
-        for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], value_at<float>(told, k));
-    Said said;
-    append_values<float>(said, least);
-    const std::vector<Said> united = runner_.gather(said);
+    for (const Bytes& received : exchange_.all_to_all(to))
+        for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], value_at<float>(received, k));
+    Bytes sent;
+    append_values<float>(sent, least);
+    const std::vector<Bytes> united = exchange_.all_gather(sent);
     for (std::size_t r = 0; r < ranks; ++r)
         if (!united[r].empty()) std::memcpy(&depths[range_of(r, ranks, depths.size()).first], united[r].data(), united[r].size());
 }
 
 void RankParts::compose(std::span<std::uint32_t> colors, std::span<const float> depths) {
-    const auto ranks = static_cast<std::size_t>(runner_.ranks()), own = static_cast<std::size_t>(runner_.rank());
-    std::vector<Said> to(ranks);
+    const auto ranks = static_cast<std::size_t>(exchange_.ranks()), own = static_cast<std::size_t>(exchange_.rank());
+    std::vector<Bytes> to(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
         const auto [first, last] = range_of(r, ranks, depths.size());
         append_values<float>(to[r], depths.subspan(first, last - first));
@@ -69,15 +68,15 @@ void RankParts::compose(std::span<std::uint32_t> colors, std::span<const float> 
     const std::size_t count = last - first;
     std::vector<float> nearest(count, -1);
     std::vector<std::uint32_t> shown(count);
-    for (const Said& told : runner_.swap(to))
+    for (const Bytes& received : exchange_.all_to_all(to))
         for (std::size_t k = 0; k < count; ++k)
-            if (const auto depth = value_at<float>(told, k); depth > nearest[k]) {
+            if (const auto depth = value_at<float>(received, k); depth > nearest[k]) {
                 nearest[k] = depth;
-                shown[k] = value_at<std::uint32_t>(told, k, count * sizeof(float));
+                shown[k] = value_at<std::uint32_t>(received, k, count * sizeof(float));
             }
-    std::vector<Said> to_first(ranks);
+    std::vector<Bytes> to_first(ranks);
     append_values<std::uint32_t>(to_first[0], shown);
-    const std::vector<Said> composed = runner_.swap(to_first);
+    const std::vector<Bytes> composed = exchange_.all_to_all(to_first);
     if (!is_first()) return;
     for (std::size_t r = 0; r < ranks; ++r)
         if (!composed[r].empty())
@@ -85,7 +84,7 @@ void RankParts::compose(std::span<std::uint32_t> colors, std::span<const float> 
 }
 
 PartDrawing::PartDrawing(World& world, std::unique_ptr<host::Canvas> canvas)
-    : world_(world), parts_(world.runner()), canvas_(std::move(canvas)) {}
+    : world_(world), parts_(world.runner().ranks()->exchange()), canvas_(std::move(canvas)) {}
 
 std::unique_ptr<PartDrawing> PartDrawing::make(World& world, const host::CanvasOptions& options) {
     std::unique_ptr<host::Canvas> canvas;
@@ -94,7 +93,7 @@ std::unique_ptr<PartDrawing> PartDrawing::make(World& world, const host::CanvasO
         if (!canvas->draws_parts()) canvas.reset();
     } catch (const host::DeviceError&) {  // some rank has none: all draw whole pictures, which tell why
     }
-    if (!all_ranks(world.runner(), canvas != nullptr)) return nullptr;
+    if (!all_ranks(world.runner().ranks()->exchange(), canvas != nullptr)) return nullptr;
     return std::unique_ptr<PartDrawing>(new PartDrawing(world, std::move(canvas)));
 }
 
@@ -104,19 +103,19 @@ PartDrawing::Moment PartDrawing::look(std::optional<std::size_t> followed) const
         bool follows = false;
     } own;
     const State& state = world_.share()->state;
-    for (std::uint32_t k = 0; k < state.counted().contacts; ++k) own.moment.contacts += state.tells_of(state.contacts[k]);
+    for (std::uint32_t k = 0; k < state.counted().contacts; ++k) own.moment.contacts += state.owns_contact(state.contacts[k]);
     if (followed)
         if (const std::uint32_t row = state.row_of(*followed); row != physics::NONE && state.is_stepped(row)) {
             own.moment.followed = state.poses[row].position;
             own.follows = true;
         }
-    Said said;
-    append_values<Told>(said, std::span(&own, 1));
+    Bytes sent;
+    append_values<Told>(sent, std::span(&own, 1));
     Moment all;
-    for (const Said& one : world_.runner().gather(said)) {
-        const auto told = value_at<Told>(one, 0);
-        all.contacts += told.moment.contacts;
-        if (told.follows) all.followed = told.moment.followed;
+    for (const Bytes& one : world_.runner().ranks()->exchange().all_gather(sent)) {
+        const auto received = value_at<Told>(one, 0);
+        all.contacts += received.moment.contacts;
+        if (received.follows) all.followed = received.moment.followed;
     }
     return all;
 }

@@ -8,26 +8,26 @@
 #include <string>
 #include <vector>
 
-#include "compute/runner.h"
+#include "compute/distributed/exchange.h"
 #include "compute/world.h"
 #include "host/canvas/canvas.h"
 
 namespace scree::demos {
 
-// Joins the parts of pictures by the messages of a runner's ranks. Each rank joins a range of the pixels.
+// Joins the parts of pictures by messages between ranks. Each rank joins a range of the pixels.
 class RankParts final : public host::PictureParts {
 public:
-    explicit RankParts(Runner& runner) : runner_(runner) {}
-    bool is_first() const override { return runner_.rank() == 0; }
+    explicit RankParts(Exchange& exchange) : exchange_(exchange) {}
+    bool is_first() const override { return exchange_.rank() == 0; }
     void unite(std::span<float> depths) override;
     void compose(std::span<std::uint32_t> colors, std::span<const float> depths) override;
 
 private:
-    Runner& runner_;
+    Exchange& exchange_;
 };
 
-// Collective: whether all ranks say so.
-bool all_ranks(const Runner& runner, bool say);
+// Collective: whether it holds on all ranks.
+bool all_ranks(Exchange& exchange, bool own);
 
 // The part of a rank: a canvas of OpenGL ES, which takes the rank's bodies for each picture.
 class PartDrawing {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "compute/fields/picture_style.h"
+#include "compute/scene_file/picture_style_fields.h"
 #include "demos/film/color_range.h"
 #include "demos/program/exit_status.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 template <class Enum>
 const std::vector<std::string>& all_words() {
-    static const std::vector<std::string> words(fields::words<Enum>.begin(), fields::words<Enum>.end());
+    static const std::vector<std::string> words(schema::words<Enum>.begin(), schema::words<Enum>.end());
     return words;
 }
 template <class Enum>

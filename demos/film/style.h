@@ -6,7 +6,7 @@
 
 #include "compute/scene_file/picture_style.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "host/canvas/canvas.h"
 #include "host/canvas/colors.h"
 
@@ -29,7 +29,7 @@ void set_shown(PictureStyle& style, Overlay overlay, bool on);
 // powers of ten.
 bool is_shown_by_root(ShownQuantity quantity);
 
-// The words of options and scene files (compute/fields/picture_style.h).
+// The words of options and scene files (compute/scene_file/picture_style_fields.h).
 const std::vector<std::string>& color_words();
 const std::vector<std::string>& color_map_words();
 const std::vector<std::string>& color_scale_words();

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compute/replay/replay.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "demos/scenes/script.h"
 
 namespace scree::demos {

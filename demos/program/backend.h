@@ -9,7 +9,7 @@
 #include "compute/distributed/exchange.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "host/canvas/canvas.h"
 
 namespace scree::host {

@@ -9,7 +9,7 @@
 #include "compute/plan/lockstep_result.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

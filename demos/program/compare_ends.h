@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "demos/program/backend.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "compute/fields/body.h"
-#include "compute/fields/range_text.h"
+#include "compute/schema/body.h"
+#include "compute/schema/range_text.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "shaders/physics/collide/grid.h"
@@ -21,7 +21,7 @@ namespace scree::demos {
 namespace {
 
 constexpr std::size_t most_shown = 64;  // unless asked for
-constexpr fields::Range gravities{0, 1e4};
+constexpr schema::Range gravities{0, 1e4};
 
 struct Variation {
     std::string key;
@@ -33,13 +33,13 @@ constexpr bool is_number = std::is_same_v<decltype(Field::member), float Body::*
 
 std::vector<std::string> keys_of_variations() {
     std::vector<std::string> keys{"gravity", "seed"};
-    fields::for_each_field<Body>([&](const auto& field) {
+    schema::for_each_field<Body>([&](const auto& field) {
         if constexpr (is_number<std::decay_t<decltype(field)>>) keys.emplace_back(field.key);
     });
     return keys;
 }
 
-void require_within(const Variation& one, const fields::Range& range, const char* unit) {
+void require_within(const Variation& one, const schema::Range& range, const char* unit) {
     for (const double value : {one.from, one.to})
         if (!range.holds(value)) throw UsageError("--vary " + one.key + ": " + out_of_range(value, range, unit));
 }
@@ -57,7 +57,7 @@ Variation variation_of(const std::string& word) {
     made.from = number_of(from, "--vary");
     made.to = number_of(to, "--vary");
     if (made.key == "gravity") require_within(made, gravities, "m/s^2");
-    fields::for_each_field<Body>([&](const auto& field) {
+    schema::for_each_field<Body>([&](const auto& field) {
         if constexpr (is_number<std::decay_t<decltype(field)>>)
             if (made.key == field.key) require_within(made, field.range, field.unit);
     });
@@ -70,7 +70,7 @@ void vary(Scene& scene, const Variation& one, float value) {
         scene.gravity = before > 0 ? scene.gravity * (value / before) : vec3(0, -value, 0);
         return;
     }
-    fields::for_each_field<Body>([&](const auto& field) {
+    schema::for_each_field<Body>([&](const auto& field) {
         if constexpr (is_number<std::decay_t<decltype(field)>>)
             if (one.key == field.key)
                 for (Body& body : scene.bodies) body.*field.member = value;

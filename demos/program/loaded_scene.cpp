@@ -9,14 +9,14 @@
 #include <limits>
 #include <set>
 
-#include "compute/fields/settings.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
+#include "compute/schema/settings.h"
 #include "demos/film/camera.h"
 #include "demos/program/backend.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "demos/program/scene_edits.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
@@ -124,7 +124,7 @@ void set_bounds(LoadedScene& subject) {
 
 bool are_default(const Settings& settings) {
     bool all = true;
-    fields::for_each_field<Settings>([&](const auto& field) { all = all && settings.*field.member == Settings{}.*field.member; });
+    schema::for_each_field<Settings>([&](const auto& field) { all = all && settings.*field.member == Settings{}.*field.member; });
     return all;
 }
 

@@ -10,7 +10,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_stream.h"
 #include "compute/world.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "demos/scenes/script.h"
 #include "demos/suite/promise.h"
 

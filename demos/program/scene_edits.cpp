@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 
 namespace scree::demos {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

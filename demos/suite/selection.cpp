@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "demos/program/exit_status.h"
-#include "demos/program/option_parsing.h"
-#include "demos/program/options.h"
+#include "demos/program/options/option_parsing.h"
+#include "demos/program/options/options.h"
 
 namespace scree::demos {
 

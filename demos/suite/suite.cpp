@@ -8,9 +8,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "demos/program/outputs/report.h"
+#include "demos/program/outputs/table.h"
 #include "demos/program/progress.h"
-#include "demos/program/report.h"
-#include "demos/program/table.h"
 #include "demos/suite/recorder.h"
 
 namespace scree::demos {

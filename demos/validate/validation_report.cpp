@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 #include "demos/validate/experiment.h"
 
 namespace scree::demos {

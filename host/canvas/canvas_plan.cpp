@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/device_error.h"
+
 namespace scree::host {
 
 const std::array<BindingInfo, BINDINGS>& binding_infos() {
@@ -55,6 +57,17 @@ void require_tables(const BodyTables& tables, const CanvasOptions& options, Colo
         if (info.table == nullptr || !reads(i, options, by) || (tables.*info.table).given) continue;
         throw std::invalid_argument(std::string("canvas: the table of ") + info.name + " is missing");
     }
+}
+
+CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor) {
+    if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
+        throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
+                          " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
+    }
+    if (options.samples == 0) options.samples = is_processor ? 1 : 4;
+    if (options.samples != 1 && options.samples != 4)
+        throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    return options;
 }
 
 std::vector<Draw> draws_of(const CanvasOptions& options) {

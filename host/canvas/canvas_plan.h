@@ -104,6 +104,10 @@ constexpr bool smooths_on_device(const CanvasOptions& options) {
     return options.samples == 1 && options.smooth && (options.stays || options.bits == 16);
 }
 
+// Throws DeviceError for pictures of sizes and samples that a device does not draw (`most`: pixels along a side). Resolves
+// `options.samples`.
+CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor);
+
 // The draws of a picture, sorted by pass. `options.samples` must be resolved to 1 or 4.
 std::vector<Draw> draws_of(const CanvasOptions& options);
 

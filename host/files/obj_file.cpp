@@ -1,10 +1,10 @@
 // Wavefront OBJ files: their statements are read here, with lines for errors; tinyobjloader cuts polygons into triangles.
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "host/files/finite_number.h"
 #include "host/files/mesh_file.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -96,11 +96,7 @@ private:
         text_ += "v";
         for (int k = 0; k < 3; ++k) {
             std::string_view word = statements_.word();
-            if (word.starts_with('+')) word.remove_prefix(1);
-            double value = 0;
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-            if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(static_cast<float>(value)))
-                refuse(statements_.line(), "a vertex needs three finite numbers");
+            if (!finite_number(word)) refuse(statements_.line(), "a vertex needs three finite numbers");
             text_.append(" ").append(word);
         }
         text_ += "\n";

@@ -1,11 +1,11 @@
 // STL files, binary and text.
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#include "host/files/finite_number.h"
 #include "host/files/mesh_file.h"
 
 namespace scree::host {
@@ -49,12 +49,8 @@ private:
 
 float stl_number(StlWords& words, const std::string& name) {
     std::string_view word = words.next();
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(static_cast<float>(value)))
-        throw FileError(name + ": line " + std::to_string(words.line()) + ": a vertex needs three finite numbers");
-    return static_cast<float>(value);
+    if (const std::optional<float> value = finite_number(word)) return *value;
+    throw FileError(name + ": line " + std::to_string(words.line()) + ": a vertex needs three finite numbers");
 }
 
 // The header of a binary file may begin with "solid", too, but the number of its triangles has a byte 0.

@@ -1,6 +1,6 @@
 // The adviser on energy: what grows without a cause is told in the summary and the report; what falls, swings on a spring or was
 // pushed is not.
-#include "demos/program/adviser.h"
+#include "demos/program/advice/adviser.h"
 
 #include <catch2/catch.hpp>
 #include <functional>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "compute/world.h"
-#include "demos/program/report.h"
+#include "demos/program/outputs/report.h"
 
 using namespace scree;
 

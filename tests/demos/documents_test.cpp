@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "demos/program/commands.h"
-#include "demos/program/report.h"
+#include "demos/program/commands/commands.h"
+#include "demos/program/outputs/report.h"
 #include "demos/suite/selection.h"
 #include "demos/suite/suite.h"
 #include "demos/validate/experiment.h"

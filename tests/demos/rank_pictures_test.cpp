@@ -48,7 +48,7 @@ TEST_CASE("ranks that draw their own bodies make the picture of one, pixel by pi
                 const auto part = demos::PartDrawing::make(world, options);
                 world.step(60);
                 shared[rank] = part != nullptr && world.share().has_value();
-                if (!demos::all_ranks(world.runner(), shared[rank] != 0)) return;
+                if (!demos::all_ranks(*exchange, shared[rank] != 0)) return;
                 moments[rank] = part->look(followed);
                 host::Image drawn = part->draw(camera, scale, rank == 0 ? "as one" : "", low, high);
                 others_empty[rank] = rank == 0 || drawn.rgba.empty();

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "compute/world.h"
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 #include "demos/scenes/demos.h"
 #include "tests/peers/race.h"
 

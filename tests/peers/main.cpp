@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "compute/scene_file/scene_json.h"
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 #include "host/files/file.h"
 #include "host/processor.h"
 #include "tests/peers/bins.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "compute/scene/hull.h"
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 #include "tests/peers/race.h"
 
 namespace scree::peers {

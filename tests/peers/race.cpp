@@ -9,7 +9,7 @@
 #include <functional>
 #include <numeric>
 
-#include "demos/program/table.h"
+#include "demos/program/outputs/table.h"
 
 namespace scree::peers {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/fields_write.h"
 #include "compute/scene_file/scene_json.h"
@@ -88,7 +88,7 @@ void require_known(const json& schema, const json& known, const json& value, con
 
 }  // namespace
 
-namespace scree::fields {
+namespace scree::schema {
 template <>
 inline constexpr auto table<Lamp> = table_of("lamp", "A lamp",
                                              field("brightness", &Lamp::brightness, between(0, 10), "lx", "Illuminance"));
@@ -98,7 +98,7 @@ TEST_CASE("fields: a property is a member and a line, from which it is read, wri
     const auto read = [](const std::string& text) {
         Lamp lamp;
         json_reading::read_value(json::parse(text), root / "lamp", lamp, "", {});
-        fields::check_fields(root / "lamp", lamp);
+        schema::check_fields(root / "lamp", lamp);
         return lamp.brightness;
     };
     CHECK(read("{}") == 5);
@@ -126,7 +126,7 @@ TEST_CASE("fields: the host code names a body's property in its table alone", "[
             if (file.in("compute/") && !file.in("compute/scene_file/import/") &&
                 file.text.find("\"" + std::string(key) + "\"") != std::string::npos)
                 found.push_back(file.path);
-        CHECK(found == std::vector<std::string>{"compute/fields/body.h"});
+        CHECK(found == std::vector<std::string>{"compute/schema/body.h"});
     }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("fields: the schema has the ranges and defaults of the table, which a 
     const json schema = json::parse(scene_schema());
     const json& properties = schema["$defs"]["body"]["properties"];
     std::size_t numbers = 0;
-    fields::for_each_field<Body>([&]<class Member>(const fields::Field<Body, Member>& field) {
+    schema::for_each_field<Body>([&]<class Member>(const schema::Field<Body, Member>& field) {
         INFO(field.key);
         REQUIRE(properties.contains(field.key));
         if constexpr (std::is_same_v<Member, float>) {

@@ -345,7 +345,7 @@ namespace {
 
 // On ranks of a streamed scene.
 World world_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
-    if (runner->ranks() == 1) return {program.scene, program.settings, std::move(runner)};
+    if (!runner->ranks()) return {program.scene, program.settings, std::move(runner)};
     StreamedScene streamed{program.scene};
     streamed.scene.bodies.clear();
     streamed.others = [&bodies = program.scene.bodies](const TakeBody& take) { std::ranges::for_each(bodies, take); };

@@ -112,7 +112,8 @@ struct Group {
                                             gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
                              no_impact_context());
     }
-    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
+    SCREE_INLINE void write_deltas(const WideTables& tables, const VelocityPair& share, Float weight,
+                                   Float normal_impulse) const {
         to_slots(tables, live, c, share, weight, normal_impulse);
     }
     // What the biased pass changes, and what both do: fields that stay are not written.

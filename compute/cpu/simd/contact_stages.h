@@ -128,7 +128,7 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
         const Mass mb = whole_mass(gather<BodyMass>(tables.masses, group.b));
         const Float weight = is_active(group.c, group.impulse, group.before, p);
         const VelocityPair share = warm_start(group.c, group.impulse, ma, mb);
-        group.hand_out(tables, share, weight, group.impulse.normal_sum);
+        group.write_deltas(tables, share, weight, group.impulse.normal_sum);
         if (tables.plain) narrow(prepared.impulse);
         tables.unloaded[first / lanes] = is_unloaded(prepared.impulse, share, weight);
     }
@@ -149,7 +149,7 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         const PassOutcome after = biased_pass(group.c, group.impulse, group.before, bodies, group.around_impact(tables, p), p);
         group.keep_solved(after.impulse);
         if (tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.hand_out(tables, after.share, after.weight, after.passed_on);
+        group.write_deltas(tables, after.share, after.weight, after.passed_on);
     }
 }
 void solve(const WideTables& tables, std::size_t first, std::size_t last) {
@@ -204,7 +204,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.borne, last - first);
         group.keep(after.impulse);
         if (tables.last || tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.hand_out(tables, after.share, after.weight, after.passed_on);
+        group.write_deltas(tables, after.share, after.weight, after.passed_on);
         unloaded = is_unloaded(after.impulse, after.share, after.weight);
     }
 }

@@ -152,7 +152,7 @@ void gather_all(Pass& pass, Bool warms) {
     }
 }
 
-void hand_out(const Pass& pass, const Member& member, Float weight, Float normal_sum) {
+void write_deltas(const Pass& pass, const Member& member, Float weight, Float normal_sum) {
     Words slots = member.slot.v;
     for (size_t lane = pass.group.count; lane < lanes; ++lane) slots[lane] = nowhere;
     scatter(pass.tables.slots, Indices(Uint(slots)), velocity_delta(member.velocity, weight, normal_sum));
@@ -220,7 +220,7 @@ bool solve(const BlockTables& tables, BlockGroup& group, std::byte* room) {
     if (!solve_rounds(pass, true)) return false;
     gather_all(pass, false);
     write(pass);
-    for (uint32_t m = 0; m < group.shape.bodies; ++m) hand_out(pass, pass.members[m], 0.0f, 0.0f);
+    for (uint32_t m = 0; m < group.shape.bodies; ++m) write_deltas(pass, pass.members[m], 0.0f, 0.0f);
     return true;
 }
 
@@ -237,7 +237,7 @@ bool relax(const BlockTables& tables, BlockGroup& group, std::byte* room, bool l
     if (last) return true;
     if (some(struck)) clear_impulses(pass, struck);
     note_pressing(pass);
-    for (uint32_t m = 0; m < group.shape.bodies; ++m) hand_out(pass, pass.members[m], 1.0f, pass.members[m].normal_sum);
+    for (uint32_t m = 0; m < group.shape.bodies; ++m) write_deltas(pass, pass.members[m], 1.0f, pass.members[m].normal_sum);
     return true;
 }
 

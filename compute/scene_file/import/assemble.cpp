@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "compute/fields/body.h"
 #include "compute/scene/double_quaternion.h"
 #include "compute/scene/hull.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/import/model.h"
+#include "compute/schema/body.h"
 
 namespace scree::imports {
 
@@ -21,7 +21,7 @@ struct Shapes {
 
 bool same_material(const Material& a, const Material& b) {
     bool same = true;
-    fields::for_each_field<Material>([&](const auto& field) { same = same && a.*field.member == b.*field.member; });
+    schema::for_each_field<Material>([&](const auto& field) { same = same && a.*field.member == b.*field.member; });
     return same;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compute/fields/settings.h"
+#include "compute/schema/settings.h"
 
 namespace scree::imports {
 

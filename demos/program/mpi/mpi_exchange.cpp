@@ -39,7 +39,7 @@ public:
         MPI_Comm_free(&here);
         return found;
     }
-    std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
+    std::vector<Bytes> all_to_all(const std::vector<Bytes>& to) override {
         std::vector<std::uint64_t> sent, received(to.size());
         for (const Bytes& one : to) sent.push_back(one.size());
         {
@@ -48,7 +48,7 @@ public:
         }
         std::vector<Bytes> from(to.size());
         for (std::size_t r = 0; r < from.size(); ++r) from[r].resize(received[r]);
-        Exchange::swap(to, from);
+        Exchange::all_to_all(to, from);
         return from;
     }
     void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {

@@ -5,8 +5,8 @@
 
 #include "compute/device/arithmetic_check.h"
 #include "compute/parallel/threads.h"
-#include "demos/program/commands.h"
-#include "demos/program/table.h"
+#include "demos/program/commands/commands.h"
+#include "demos/program/outputs/table.h"
 #include "host/processor.h"
 #include "host/vulkan/device.h"
 

@@ -6,13 +6,13 @@
 
 #include "demos/film/style.h"
 #include "demos/program/backend.h"
-#include "demos/program/commands.h"
+#include "demos/program/commands/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/option_parsing.h"
-#include "demos/program/output_check.h"
+#include "demos/program/options/option_parsing.h"
+#include "demos/program/options/output_check.h"
 #include "demos/program/window/viewer.h"
 
 namespace scree::demos {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "compute/fields/picture_style.h"
-#include "demos/program/units.h"
+#include "compute/scene_file/picture_style_fields.h"
+#include "demos/program/options/units.h"
 #include "demos/program/window/widgets.h"
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "compute/fields/body.h"
-#include "compute/fields/joint.h"
 #include "compute/scene/shape_geometry.h"
-#include "demos/program/units.h"
+#include "compute/schema/body.h"
+#include "compute/schema/joint.h"
+#include "demos/program/options/units.h"
 #include "demos/program/window/panel.h"
 #include "demos/program/window/widgets.h"
 
@@ -25,7 +25,7 @@ bool has_mass(const Body& body) {
 }
 
 std::string kind_word(const JointKind& kind) {
-    std::string word = fields::alternatives<JointKind>.keys[kind.index()];
+    std::string word = schema::alternatives<JointKind>.keys[kind.index()];
     std::replace(word.begin(), word.end(), '_', ' ');
     return word;
 }
@@ -99,7 +99,7 @@ void Panel::show_body_edits(Session& session, Interaction& interaction, std::siz
         if (const auto value = edits("mass", mass, first.mass, 1e-3f * first.mass, 1e3f * first.mass, form.c_str(), true))
             interaction.perform(SetMass{body, *value});
     }
-    static const std::vector<std::string> words(fields::words<Motion>.begin(), fields::words<Motion>.end());
+    static const std::vector<std::string> words(schema::words<Motion>.begin(), schema::words<Motion>.end());
     Motion motion = now.motion;
     if (choose("motion", words, motion)) interaction.perform(SetMotion{body, motion});
     ImGui::Checkbox("follow", &interaction.follows);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "compute/scene/shape_geometry.h"
-#include "demos/program/units.h"
+#include "demos/program/options/units.h"
 #include "demos/program/window/panel.h"
 #include "shaders/physics/base/arithmetic.h"
 

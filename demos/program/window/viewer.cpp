@@ -11,7 +11,7 @@
 #include "demos/film/style.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
-#include "demos/program/option_parsing.h"
+#include "demos/program/options/option_parsing.h"
 #include "host/files/file.h"
 #include "host/pictures/image.h"
 #include "host/vulkan/device.h"

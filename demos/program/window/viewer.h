@@ -13,7 +13,7 @@
 #include "demos/film/drawing.h"
 #include "demos/play/interaction.h"
 #include "demos/program/backend.h"
-#include "demos/program/options.h"
+#include "demos/program/options/options.h"
 #include "demos/program/window/detail.h"
 #include "demos/program/window/film.h"
 #include "demos/program/window/panel.h"

@@ -1,7 +1,7 @@
 // Stand-ins for the commands that need Vulkan, which report that the build lacks it.
 #include <CLI/CLI.hpp>
 
-#include "demos/program/commands.h"
+#include "demos/program/commands/commands.h"
 #include "demos/program/compare_device.h"
 #include "demos/program/exit_status.h"
 

@@ -1,7 +1,7 @@
 // Stand-in for the view command, which reports that the build lacks a window.
 #include <CLI/CLI.hpp>
 
-#include "demos/program/commands.h"
+#include "demos/program/commands/commands.h"
 #include "demos/program/exit_status.h"
 
 namespace scree::demos {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/joints_json.h"
@@ -23,18 +23,12 @@ namespace scree::python {
 using namespace json_reading;
 
 nlohmann::json json_of(const std::string& text) {
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {
-        refuse_number(text, error);
-    }
+    return parsed(text);
 }
 
 py::dict settings_dict(const Settings& settings) {
     py::dict made;
-    fields::for_each_field<Settings>([&](const auto& field) { made[field.key] = settings.*field.member; });
+    schema::for_each_field<Settings>([&](const auto& field) { made[field.key] = settings.*field.member; });
     return made;
 }
 
@@ -57,7 +51,7 @@ void read_mesh_file(Body& body, const Place& place) {
 void set_from_array(std::span<Body> bodies, const std::string& key, const Floats& values) {
     const auto n = static_cast<py::ssize_t>(bodies.size());
     bool found = false;
-    fields::for_each_field<Body>([&]<class Member>(const fields::Field<Body, Member>& field) {
+    schema::for_each_field<Body>([&]<class Member>(const schema::Field<Body, Member>& field) {
         if (key != field.key) return;
         if constexpr (std::is_same_v<Member, float> || std::is_same_v<Member, vec3> || std::is_same_v<Member, vec4>) {
             found = true;
@@ -146,7 +140,7 @@ void set_optional(Description& scene, std::optional<Part>& part, const char* key
     if (value.is_null()) return part.reset();
     Part read = part.value_or(Part{});
     read_value(value, root / key, read, "", names_of(scene.document.scene));
-    fields::check_fields(root / key, read);
+    schema::check_fields(root / key, read);
     part = std::move(read);
 }
 

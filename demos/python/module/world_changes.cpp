@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "demos/python/module/world_object.h"
 
@@ -106,7 +106,7 @@ JointAxis axis_named(const std::string& name) {
 }
 
 Motion motion_named(const std::string& name) {
-    const Names words(fields::words<Motion>.begin(), fields::words<Motion>.end());
+    const Names words(schema::words<Motion>.begin(), schema::words<Motion>.end());
     const auto found = std::find(words.begin(), words.end(), name);
     if (found == words.end()) throw py::value_error(unknown("motion", name, words));
     return static_cast<Motion>(found - words.begin());

@@ -11,8 +11,8 @@
 #include "compute/world.h"
 #include "demos/film/drawing.h"
 #include "demos/program/backend.h"
-#include "demos/program/export_file.h"
 #include "demos/program/loaded_scene.h"
+#include "demos/program/outputs/export_file.h"
 #include "demos/python/module/bindings.h"
 
 namespace scree::python {

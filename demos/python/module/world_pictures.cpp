@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "demos/film/channels.h"
 #include "demos/film/pictures.h"
@@ -25,7 +25,7 @@ host::Camera camera_of(const std::string& text) {
         using namespace json_reading;
         Viewpoint read;
         read_value(json_of(text), root / "camera", read, "", {});
-        fields::check_fields(root / "camera", read);
+        schema::check_fields(root / "camera", read);
         return read;
     }();
     host::Camera camera;
@@ -76,7 +76,7 @@ Look look_of(const SceneDocument& shown, const std::string& text) {
     if (given.contains("show")) look.style.show.clear();
     only(given, place, keys_of<PictureStyle>());
     read_fields(given, place, look.style);
-    fields::check_fields(place, look.style);
+    schema::check_fields(place, look.style);
     return look;
 }
 

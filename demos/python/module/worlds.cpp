@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/fields/document.h"
+#include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
 #include "demos/python/module/world_object.h"
 
@@ -55,7 +55,7 @@ Settings settings_of(const SceneDocument& document, const std::string& text) {
     const Place place = root / "settings";
     only(given, place, keys_of<Settings>());
     read_fields(given, place, settings);
-    fields::check_fields(place, settings);
+    schema::check_fields(place, settings);
     return settings;
 }
 

@@ -20,13 +20,7 @@ CanvasOptions checked(CanvasOptions options, const GlContext& context) {
     context.gl().glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
     context.gl().glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
     const int most = std::min(texture, renderbuffer);
-    if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
-        throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
-                          " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
-    }
-    if (options.samples == 0) options.samples = context.is_processor() ? 1 : 4;
-    if (options.samples != 1 && options.samples != 4)
-        throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    options = with_samples(options, most, context.is_processor());
     if (options.bits != 8) throw DeviceError("canvas: OpenGL ES draws 8 bits a channel here; more needs Vulkan");
     return options;
 }

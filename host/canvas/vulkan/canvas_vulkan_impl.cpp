@@ -13,13 +13,7 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
     if (!device.report().has_graphics)
         throw DeviceError("canvas: " + device.report().name + " has no queue with graphics; draw with OpenGL ES (--canvas gl)");
     const auto most = static_cast<int>(std::min(device.limits().maxFramebufferWidth, device.limits().maxFramebufferHeight));
-    if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
-        throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
-                          " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
-    }
-    if (options.samples == 0) options.samples = device.report().is_processor ? 1 : 4;
-    if (options.samples != 1 && options.samples != 4)
-        throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    options = with_samples(options, most, device.report().is_processor);
     if (options.bits != 8 && options.bits != 16) throw DeviceError("canvas: bits must be 8 or 16");
     return options;
 }
