@@ -78,7 +78,8 @@ TEST_CASE("friction and rolling resistance are finite and within their limits, h
             for (int i = 0; i < 4000; ++i) {
                 CAPTURE(ratio, far, i);
                 const Sliding s = sliding(noise, ratio, far);
-                const SolveResult after = solve_patch_friction(s.c, s.pass, s.normal, s.a, s.b, i % 2 == 0, in_a_substep());
+                const SolveResult after =
+                    solve_patch_friction(s.c, s.pass, s.normal, s.a, s.b, s.a, s.b, i % 2 == 0, in_a_substep());
                 const float friction = glm::length(after.impulse.friction), rolling = glm::length(after.impulse.rolling);
                 REQUIRE(friction <= 0.6f * s.normal * 1.001f);
                 REQUIRE(rolling <= 0.02f * s.normal * 1.001f);

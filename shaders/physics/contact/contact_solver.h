@@ -73,7 +73,7 @@ CONSTANT float FRICTION_RELAXATION = 0.8f;
 // `struck`: in an impact, which nothing corrects afterwards.
 LAW SolveResult solve_relaxed_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool struck, bool biased,
                                        Parameters parameters) {
-    return solve_patch_friction(c, s, normal, with_relaxation(a, !struck, FRICTION_RELAXATION, parameters),
+    return solve_patch_friction(c, s, normal, a, b, with_relaxation(a, !struck, FRICTION_RELAXATION, parameters),
                                 with_relaxation(b, !struck, FRICTION_RELAXATION, parameters), biased, parameters);
 }
 

@@ -338,14 +338,16 @@ LAW bool needs_friction_again(Constraint c, Impulse impulse, vec3 press, float n
     return may_slide || change > CHANGED * normal * arm || c.rolling_resistance > 0.0f;
 }
 
-LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool biased,
-                                     Parameters parameters) {
+// Both passes solve rolling resistance, on the masses as they are split, `a` and `b`; friction on `relaxed_a` and `relaxed_b`.
+// (With these for both, a ball on a table of two feet swung ever more, up to 0.09 rad/s.)
+LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Mass relaxed_a, Mass relaxed_b,
+                                     bool biased, Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
     bool resists = acts && c.rolling_resistance != 0.0f;
     SolveResult after = s;
     if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
-    after = solve_friction(c, after, normal, a, b, biased, parameters);
+    after = solve_friction(c, after, normal, relaxed_a, relaxed_b, biased, parameters);
     if (none(!acts)) return after;
     return choose(acts, after, s);
 }

@@ -145,8 +145,9 @@ TEST_CASE(
     viewer.find_window();
     const auto click = [&](int x, int y) {
         viewer.point(x, y);
-        wait_for(0.3);
+        viewer.next();
         viewer.hand("click 1");
+        viewer.next();
     };
     viewer.strike("h");
     click(265, 219);  // the sphere
@@ -158,12 +159,12 @@ TEST_CASE(
     REQUIRE(viewer.until([](const json& now) { return !now.contains("selected"); }));
     viewer.strike("j");
     click(400, 225);  // the box
-    wait_for(0.5);
+    viewer.next();
     viewer.point(500, 210);
-    wait_for(0.5);
+    viewer.next();
     viewer.shoot("2_joining");
     click(570, 199);  // the capsule
-    wait_for(0.5);
+    viewer.next();
     click(400, 400);  // the ground
     REQUIRE(viewer.until([](const json& now) { return now.contains("selected") && now.at("selected") == 0; }));
     click(400, 225);
@@ -172,9 +173,9 @@ TEST_CASE(
     viewer.next();
     viewer.shoot("3_joined");
     viewer.point(95, 48);  // the list of scenes
-    wait_for(0.3);
+    viewer.next();
     viewer.hand("mousedown 1");
-    wait_for(0.3);
+    viewer.next();
     viewer.hand("mouseup 1");
     viewer.next();
     viewer.shoot("4_list");
