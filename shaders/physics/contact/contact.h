@@ -14,9 +14,8 @@ LAW vec4 separations_of(Contact contact) {
     return vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
 }
 
-// How far a point may move on a body between steps and still match, m. Patches of three points or more keep nearly all:
-// with MATCHED for them too, stacks of coins and prisms lost their warm start each time other corners were chosen and
-// rocked for ever, and boxes of 1 cm fell. (With PATCH_MATCHED for boxes as well a heap of 150 was not at rest within 8 s.)
+// How far a point may move on a body between steps and still match, m. Patches of three points or more keep nearly all, so that
+// they keep their warm start when other corners are chosen.
 CONSTANT float MATCHED = 0.1f;        // of the smaller min_half_width
 CONSTANT float FACE_MATCHED = 0.5f;   // of the smaller width along the contact plane, between boxes and planes
 CONSTANT float PATCH_MATCHED = 1.5f;  // of the same if one has many corners

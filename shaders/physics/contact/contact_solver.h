@@ -67,8 +67,7 @@ LAW Mass with_relaxation(Mass mass, bool condition, float relaxation, Parameters
     return mass;
 }
 // Most friction is solved in the biased pass alone: with a relaxation of w the error of its warm start changes in a substep by
-// 1 - w +- sqrt(w^2 - w), so it grows above 4/3. (At 1, one heap of assorted shapes in ten crept until a body fell. Where the
-// relax pass had 1.5, one pile of boxes in six kept a box that swayed by 3 mm/s.)
+// 1 - w +- sqrt(w^2 - w), so it grows above 4/3.
 CONSTANT float FRICTION_RELAXATION = 0.8f;
 // `struck`: in an impact, which nothing corrects afterwards.
 LAW SolveResult solve_relaxed_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, bool struck, bool biased,
@@ -130,8 +129,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 }
 
 // After the positions were integrated with `moved`: the separations, the offset between the centres and the way of the slide,
-// from where the bodies meet. (Counted from the start of the step, the contact of a body that came down at a slant was gone
-// before it touched: heaps that fell into a narrow bin were a seventh deeper.)
+// from where the bodies meet: what comes down at a slant has its contact when it touches.
 LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Parameters parameters) {
     bool follows = is_of_round_bodies(c), meets = false;
     vec3 speeds = normal_speeds(c, impulse.center_offset, moved);
@@ -154,8 +152,7 @@ LAW Impulse after_motion(Constraint c, Impulse impulse, VelocityPair moved, Para
 // the iteration converges in the more substeps the lighter the struck bodies are; its impulses are greatest when the heavy body
 // has stopped, and throw it back while they fall. So a point that parts starts the next substep with none, where the impulse of
 // its contact falls by more than a blow's part. Both limits in what gravity adds to a speed in a substep: of the parting, and of
-// the change that the fallen impulse makes to the lighter body. (Without, what fell upon light bodies rose with 43% of its speed
-// in the mean, now with 13%; without FALLING columns and coins fall.)
+// the change that the fallen impulse makes to the lighter body.
 CONSTANT float PARTING = 1.5f, FALLING = 5.0f;
 
 // The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,

@@ -17,11 +17,9 @@
 //
 // A patch that sticks is anchored: its stretch, the way of B over A since it sticks, is a soft constraint as penetration is
 // (contact_solver.h), with the same spring, leak and relaxation; stretch and friction turn with the bodies. Without an
-// anchor what a pass leaves of the slip adds up. Stacks of five on a turntable, at a fifth of what friction bears, crept
-// in 20 s by 20 to 70 mm; by 4 mm once friction turned with the bodies; and by 0.1 mm with an anchor (by 9 and 13 mm
-// with a third and a tenth of its spring and leak). Where friction slides, the stretch is that at which the soft
-// constraint transmits its force (return mapping), so it can stick again at once: with none, two boxes at 0.9 of what
-// friction bears crept three times as fast. One and two points have no anchor: what rolls would swing on it.
+// anchor what a pass leaves of the slip adds up. Where friction slides, the stretch is that at which the soft constraint
+// transmits its force (return mapping), so it can stick again at once. One and two points have no anchor: what rolls would swing
+// on it.
 #ifndef SCREE_PHYSICS_FRICTION_H
 #define SCREE_PHYSICS_FRICTION_H
 
@@ -97,7 +95,7 @@ LAW vec3 path_curvature(vec3 angular, vec3 arm, float h) {
 }
 
 // B minus A at the centre of the patch, with the curvature of their paths, m/s. A ball that rolls does not touch where it did:
-// its contact has no path. (With one, a ball of 2 cm that rolls at 1 m/s and spins at 300 rad/s ran off sideways at 6 cm/s.)
+// its contact has no path.
 LAW vec3 slip_of(Constraint c, LeverArms r, VelocityPair v, Parameters parameters) {
     vec3 slip = velocity_at(r, v), wa = v.a.angular, wb = v.b.angular;
     bool turns = point_count(c) > 1u && dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
@@ -199,8 +197,8 @@ struct PatchImpulse {
 // The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
 // `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2. `resists`:
 // the impulse is on the surface at once. A step of spin on an arm that is short beside the body is a small part of the
-// limit, and spinning resistance would act like a viscous one. (With that for every patch, columns of tables on feet fell.) It
-// stops the spin at most, `stopping`: on an arm of many radii the limit would reverse it.
+// limit, and spinning resistance would act like a viscous one. It stops the spin at most, `stopping`: on an arm of many radii the
+// limit would reverse it.
 LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold, bool resists,
                       float stopping) {
     // Squares are of quotients by the friction limit: the squares of impulses on grains leave the range of a float.
@@ -339,7 +337,6 @@ LAW bool needs_friction_again(Constraint c, Impulse impulse, vec3 press, float n
 }
 
 // Both passes solve rolling resistance, on the masses as they are split, `a` and `b`; friction on `relaxed_a` and `relaxed_b`.
-// (With these for both, a ball on a table of two feet swung ever more, up to 0.09 rad/s.)
 LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Mass relaxed_a, Mass relaxed_b,
                                      bool biased, Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);

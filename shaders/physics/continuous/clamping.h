@@ -14,9 +14,7 @@ LAWS_BEGIN
 // so on: with fewer, bodies that fly in a row pass each other when the first of them is clamped.
 CONSTANT uint CCD_ROUNDS = 3u;
 
-// A body outweighs one of at most this part of its mass: what it strikes goes with it. (Clamped by the splinters before it, a
-// ball of 2.6 t went 3 to 77% of the way through 49 splinters of 4 kg that its velocity of 20 to 300 m/s, which hardly
-// changed, asked for.)
+// A body outweighs one of at most this part of its mass: what it strikes goes with it.
 CONSTANT float LIGHT_PART = 0.125f;
 LAW bool outweighs(BodyProperties heavy, BodyProperties light) {
     return heavy.motion == MOTION_DYNAMIC && light.motion == MOTION_DYNAMIC && light.joints == NONE &&
@@ -85,7 +83,7 @@ struct ClampedMotion {
     Velocity velocity;
 };
 // The angular velocity that belongs to another orientation of the body, with its energy and the direction of its angular
-// momentum. (With the angular velocity kept, boxes off centre at 50 m/s gained up to 66% in being clamped.)
+// momentum.
 LAW vec3 spin_in(vec4 orientation, vec4 was, vec3 angular, vec3 inverse_inertia) {
     vec3 i = inverse_inertia, spin = rotate_back(was, angular);
     vec3 momentum = vec3(spin.x * reciprocal(i.x), spin.y * reciprocal(i.y), spin.z * reciprocal(i.z));

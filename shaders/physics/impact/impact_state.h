@@ -20,8 +20,7 @@ LAW float fall_speed(Parameters parameters) {
 // The normal impulses with which a body begins the substep are a blow if they would change its velocity by more than gravity does
 // in so many substeps. A heavy body that has fallen upon a light one is stopped by such impulses, which grow from substep to
 // substep; the light one flies to and fro between it and the supports, with energy that the warm start lends and the solution
-// takes back. If its contacts returned e^2 of that they would return what nothing ever brought: blows by 10 to 100 times the mass
-// left with up to 140 times their energy.
+// takes back. If its contacts returned e^2 of that they would return what nothing ever brought.
 CONSTANT float BLOW = 50.0f;
 LAW bool is_under_blow(BodyMass body, Parameters parameters) {
     return 0.5f * body.inverse_mass > BLOW * (fall_speed(parameters) * pressed_of(body.shares));

@@ -11,13 +11,10 @@
 // restitution a struck body is split among its impacts alone (mass splitting; with the usual over-relaxed split its
 // resting contacts would absorb part of the rebound). The whole bodies never gain more than the split ones, so two impacts
 // at once, or one on a body that passes the impulse on through joints, return only a part: what is left is returned in the
-// next substeps, and in the next step (settled_impact, rebounds_across). (With a rebound velocity for each contact instead,
-// three balls that met within one substep lost 2 to 5% of their energy, at worst 38%, and a gas of balls at 20 m/s half of
-// it in 10 s.)
+// next substeps, and in the next step (settled_impact, rebounds_across).
 //
 // Of two impacts along nearly parallel normals one may return more than its energy, because the other pushed the body as
-// well. What is too much is its debt, which the other impacts of its bodies return less. (Without debts a ball in a trough
-// of 64 facets had 2.8 times its energy after 25 s, with them 1.02.)
+// well. What is too much is its debt, which the other impacts of its bodies return less.
 //
 // Symplectic Euler substeps (v += g h, x += v h) put positions exactly on a parabola whose speed is v + g h / 2 on the
 // way down and v - g h / 2 on the way up: e times v alone would lose g h of the speed in every bounce (1% of the height
@@ -31,18 +28,15 @@
 
 LAWS_BEGIN
 
-// Gauss-Seidel sweeps over the points of a contact in the compression of an impact: after a single one a box that fell
-// flat on four points left spinning, and rose to half its height; after four its spin was 0.007 rad/s, after eight
-// 1e-6.
+// Gauss-Seidel sweeps over the points of a contact in the compression of an impact: what falls flat leaves without a spin.
 CONSTANT int IMPACT_SWEEPS = 8;
 
 // A point that bears less than this part of the impulse that would stop it is struck; one that bears more is in resting
-// contact. (With 0, a row of balls that an impact's precursor had moved by 0.3 mm/s did not transmit the impact.)
+// contact.
 CONSTANT float IMPACT_DISTANCE = 0.01f;
 
 // Slower approaches have no restitution, m/s: what rests on a surface approaches at up to the speed of a fall in two
-// steps, and bodies beside each other do not. (With a lower threshold for the bodies that an impact has just pushed, a
-// heap of 200 boxes gained 2e-4 of its energy in a step.)
+// steps, and bodies beside each other do not.
 LAW float slowest_impact(Constraint c, ImpactContext around, Parameters parameters) {
     float pull = larger(abs(dot3(c.normal, parameters.gravity)), abs(dot3(c.normal, around.acceleration)));
     float threshold = choose(c.restitution_threshold > 0.0f, c.restitution_threshold, parameters.restitution_threshold);
@@ -68,9 +62,7 @@ LAW bool is_impact(Impulse impulse) {
 // What the last push did of an impact on joints. It acted on one body of the assembly, whose others took their part through
 // the joints afterwards: the speed of the contact went from `from` to `to`, m/s. As long as the bodies approached that was
 // compression, of which the impact returns e^2, then it was expansion. And the change of speed tells on what mass the assembly
-// answers: with that mass the next push does what is left, whatever hangs on the struck body. (With the work of compression of
-// the struck body alone, an upright pair of welded balls rose 1.29 times as high with e = 0.7; with the impact at an end where
-// the rest of the compression is more than what it returns, it did not rise at all with e of 0.7 and less.)
+// answers: with that mass the next push does what is left, whatever hangs on the struck body.
 struct JoinedPush {
     float energy;    // that is left to return, J
     float progress;  // J, >= 0
@@ -282,8 +274,7 @@ LAW VelocityPair before_motion(VelocityPair v, Mass a, Mass b, float h) {
 
 // The relax pass of the struck points: the impulse along the mode that does the work which is left. `met`, `met_rows` and
 // `reached` are the constraint, the rows and the speeds of the biased pass, which did its work along that
-// normal: the bodies have moved since, and normal, lever arms and angular velocities with them (with one set of rows for both,
-// two balls off centre gained up to 20% of their energy at 150 m/s; with one set of velocities, two boxes a quarter at 50 m/s).
+// normal: the bodies have moved since, and normal, lever arms and angular velocities with them.
 LAW Impulse with_restitution(Constraint met, NormalRows met_rows, vec3 reached, Constraint c, Impulse impulse, NormalRows rows,
                              vec3 speeds, Mass a, Mass b, ImpactContext around) {
     float e2 = c.restitution * c.restitution;
