@@ -152,7 +152,7 @@ DemoScene rollmesh(const DemoOptions& options) {
         return static_cast<double>(glm::length(trace.end[1].position - trace.start[1].position));
     });
     const Claim even =
-        at_most("change of speed", 0.00002, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
+        at_most("change of speed", 0.000015, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
             return std::abs(static_cast<double>(glm::length(trace.end[1].velocity) - glm::length(trace.start[1].velocity)));
         });
     const vec3 low(-6, 0, -1.5f), high(6, 1, 1.5f);
