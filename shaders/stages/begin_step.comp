@@ -17,7 +17,7 @@ void main() {
     if (i < PARAMETERS.bodies) {
         BodyProperties body = READ(properties, i);
         if (GRAVITIES)
-            forces.at[i] = gravity_forces(body, felt_by(body.owner));
+            forces.at[i] = gravity_forces(body, parameters_of(body.owner));
         else
             forces.at[i] = gravity_forces(body, PARAMETERS);
         if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = roused(WORD(sleep_states, i), PARAMETERS.sleep_steps);

@@ -64,7 +64,7 @@ void main() {
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
-    Margin margin = margin_of(ta, va, tb, vb, pb.position - pa.position, felt_by(ta.owner));
+    Margin margin = margin_of(ta, va, tb, vb, pb.position - pa.position, parameters_of(ta.owner));
 #ifdef MAY_BE_SMOOTH
     float ahead = time_ahead(ta, va, tb, vb, PARAMETERS);
     if (ahead > 0.0f) {

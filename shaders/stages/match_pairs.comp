@@ -47,7 +47,8 @@ void main() {
         BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
-        if (pair.previous != NONE && has_weight(felt_by(of_a)) && may_persist(pushes_before(pair.previous), ta.shape, tb.shape))
+        if (pair.previous != NONE && has_weight(parameters_of(of_a)) &&
+            may_persist(pushes_before(pair.previous), ta.shape, tb.shape))
             kept = is_persistent(READ(contacts_before, pair.previous), ta, READ(poses, of_a), READ(velocities, of_a), tb,
                                  READ(poses, of_b), READ(velocities, of_b));
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);

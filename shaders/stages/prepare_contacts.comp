@@ -19,10 +19,10 @@ Surface surface_on(BodyProperties row) {
 }
 
 // The constraint of a contact that some body moves.
-Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Parameters felt) {
+Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Parameters own) {
     BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
-    Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, felt);
+    Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, own);
     if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
         constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
                                    READ(poses, of_b).orientation, PARAMETERS);
@@ -49,7 +49,7 @@ void main() {
     }
     bool shares = BLOCKS && shares_block(READ(properties, contact.a), READ(properties, contact.b), PARAMETERS);
     if (shares && follows_another(slots_of_pair(of_a, slot_a, of_b, slot_b), of_a, of_b)) return;
-    Parameters felt = felt_by(of_a);
+    Parameters own = parameters_of(of_a);
     VelocityPair now;
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
@@ -59,12 +59,12 @@ void main() {
     for (uint place = 0u; here != 0u; ++place) {
         uint k = here - 1u;
         if (place != 0u) contact = READ(contacts, k);
-        Constraint constraint = prepared(k, contact, of_a, of_b, now, felt);
+        Constraint constraint = prepared(k, contact, of_a, of_b, now, own);
         uint next = next_in_block(k, place, shares, of_a, of_b);
         constraint = linked(constraint, before, next);
         write_constraints(k, constraint, EVERY_MEMBER);
         Impulse impulse = pushes_at(k);
-        ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, felt);
+        ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, own);
         of_block = larger(of_block, share.weight);
         float weight = next == 0u ? of_block : 0.0f;
         if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = velocity_delta(share.change.a, weight, impulse.normal_sum);

@@ -128,7 +128,7 @@ void end_pass() {
     }
     end_part();
     note_pressing(struck);
-    hand_out(1.0f, true);
+    write_deltas(1.0f, true);
     if (!is_last_substep()) return;
     float quiet = least_quiet_in_block();
     FOR_LANES(m, block_size) if (MEMBER(m).slot != NONE) SET_FLOAT(neighbours_quiet, MEMBER(m).slot, quiet);

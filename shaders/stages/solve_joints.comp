@@ -18,5 +18,5 @@ void end_pass() {
     }
     end_part();
     push_bodies(FROM_REST);
-    hand_out(0.0f, false);
+    write_deltas(0.0f, false);
 }

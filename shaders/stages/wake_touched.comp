@@ -37,7 +37,7 @@ void main() {
             then = READ(contacts_before, pair.previous).load;
         }
         woken = wakes(is_restless(READ(properties, other).motion, WORD(sleep_states, other)), approach, now, then,
-                      READ(properties, sleeper), felt_by(sleeper));
+                      READ(properties, sleeper), parameters_of(sleeper));
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));

@@ -33,7 +33,7 @@ void look_at(uint k, uint i, bool own_still) {
     uint sleeper = body_of(own_still ? i : other);
     if (!has_slept(WORD(sleep_states, sleeper), PARAMETERS.sleep_steps)) return;
     if (owner_touches(i, other) || owner_touches(other, i)) return;
-    if (load_changed(0.0f, READ(contacts_before, k).load, READ(properties, sleeper), felt_by(sleeper)))
+    if (load_changed(0.0f, READ(contacts_before, k).load, READ(properties, sleeper), parameters_of(sleeper)))
         atomicOr(WORD(sleep_states, sleeper), WOKEN);
 }
 

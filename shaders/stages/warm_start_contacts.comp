@@ -31,12 +31,12 @@ void main() {
     if (!idle || pair.pair_type != PAIR_INACTIVE) prepared.contact.load = load_since(before, was, ta, slot_a, tb, slot_b);
     if (!idle) prepared.impulse.normal_sum = normal_impulse(prepared.impulse);
     if (BOUNCES && !idle && rebounds_across(contact_impact_of(prepared.impulse))) {
-        Parameters felt = felt_by(of_a);
+        Parameters own = parameters_of(of_a);
         VelocityPair now;
         now.a = READ(velocities, of_a);
         now.b = READ(velocities, of_b);
-        prepared.impulse = settled_impact(prepared.impulse, constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
-                                          constraint_of(before, ta, tb, slot_a, slot_b, felt), now);
+        prepared.impulse = settled_impact(prepared.impulse, constraint_of(prepared.contact, ta, tb, slot_a, slot_b, own), was,
+                                          constraint_of(before, ta, tb, slot_a, slot_b, own), now);
     }
     keep_impulse(i, prepared.impulse);
     contacts.at[i].load = prepared.contact.load;

@@ -15,13 +15,13 @@ bool is_newborn(uint body) {
     return READ_WORD(births, copy_of(body)) == COUNTED.steps;
 }
 // The parameters with the gravity of a body's copy.
-Parameters felt_by(uint body) {
-    Parameters felt = PARAMETERS;
+Parameters parameters_of(uint body) {
+    Parameters own = PARAMETERS;
     if (GRAVITIES) {
         uvec4 words = READ_QUADS(gravities, copy_of(body));
-        felt.gravity = vec3(uintBitsToFloat(words.x), uintBitsToFloat(words.y), uintBitsToFloat(words.z));
+        own.gravity = vec3(uintBitsToFloat(words.x), uintBitsToFloat(words.y), uintBitsToFloat(words.z));
     }
-    return felt;
+    return own;
 }
 
 #endif

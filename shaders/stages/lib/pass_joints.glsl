@@ -644,7 +644,7 @@ void commit(uint j, bool warms) {
 }
 
 // Velocity changes of whole bodies, in their slots.
-void hand_out(float weight, bool with_normal_impulse) {
+void write_deltas(float weight, bool with_normal_impulse) {
     FOR_LANES(m, block_size) {
         Velocity v = velocity_now(m);
 #ifdef SCREE_SMALL_BLOCKS
