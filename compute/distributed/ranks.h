@@ -16,11 +16,11 @@ struct State;  // compute/tables/state.h
 class Ranks {
 public:
     virtual Exchange& exchange() const = 0;
-    // Brings the contacts that this rank alone has to where the host reads them.
+    // Copies the contacts that this rank alone has to the host.
     virtual void download_own_contacts() = 0;
-    // Likewise all that it has of a world that is shared out.
+    // Copies all that this rank has of a shared-out world to the host.
     virtual void download_share() = 0;
-    // Between steps: whether each rank can do with its share of the attached tables, and dropping and getting back the rest.
+    // Between steps: whether each rank can keep its share of the attached tables alone; drops the rest; fetches the rest again.
     virtual bool can_share_out() const = 0;
     virtual void share_out() = 0;
     virtual void make_whole() = 0;

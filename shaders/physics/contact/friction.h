@@ -28,8 +28,8 @@
 
 LAWS_BEGIN
 
-// The determinant of a matrix scaled to a trace of 1 is lost in rounding where a body is slender beyond 1 : 1000, or a lever arm
-// many radii long. The impulse that it gives is then too great, and the limit bounds it.
+// Floor of the determinant of a matrix scaled to a trace of 1. Rounding can take all of it where a body is slender (seen from
+// 1 : 200 on) or a lever arm many radii long. The impulse is then too great, and the friction limit bounds it.
 CONSTANT float LEAST_DETERMINANT = 1.0e-12f;
 CONSTANT float MAX_IMPULSE = 1.0e18f;  // N m s: the square is finite
 
