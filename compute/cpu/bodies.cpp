@@ -69,7 +69,7 @@ void begin_substep_of(State& state, std::size_t i) {
     const SlotSum sum = sum_of_slots(state, i);
     state.velocities[i] =
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
-    state.masses[i].shares = physics::pack_shares(sum.weight, sum.normal_impulse);
+    state.masses[i].shares = physics::pack_shares(sum.weight, sum.passed_on);
 }
 
 void move(State& state, std::size_t i) {
@@ -79,14 +79,14 @@ void move(State& state, std::size_t i) {
         const SlotSum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.forces[i].impacts = physics::impacts_of(sum.weight, properties);
-        if (sum.weight > 0) state.impact_debts[i] = sum.normal_impulse;
+        state.forces[i].impact_weight = sum.weight;
+        if (sum.weight > 0) state.impact_debts[i] = sum.passed_on;
     }
     velocity = physics::held_velocity(velocity, state.fixed());
     physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     const bool sound = physics::is_sound(after.pose) && physics::is_sound(after.velocity);
     if (!sound) {
-        state.forces[i].kept = physics::UNSOUND;
+        state.bounds[i].sweep.marks = physics::UNSOUND;
         after = physics::moved_soundly(sound, state.poses[i], after);
     }
     state.poses[i] = after.pose;

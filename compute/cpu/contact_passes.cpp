@@ -18,7 +18,7 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
 // Read only where restitution is possible. `debt`: the contact's part of its bodies' debts.
 physics::ImpactContext around_impact(const State& state, const physics::Constraint& c, float debt = 0) {
     if (!(c.restitution > 0)) return physics::no_impact_context();
-    physics::ImpactContext around = physics::impact_context(state.forces[c.a], state.forces[c.b], state.masses[c.a],
+    physics::ImpactContext around = physics::impact_context(c, state.forces[c.a], state.forces[c.b], state.masses[c.a],
                                                             state.masses[c.b], parameters_of(state, c.a));
     around.debt = debt;
     return around;
@@ -30,9 +30,9 @@ physics::Surface surface_on(const State& state, const physics::BodyProperties& r
 }
 
 void write_deltas(State& state, const physics::Constraint& c, const physics::VelocityPair& delta, float weight,
-                  float normal_impulse) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(delta.a, weight, normal_impulse);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(delta.b, weight, normal_impulse);
+                  float passed_on) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(delta.a, weight, passed_on);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(delta.b, weight, passed_on);
 }
 
 // Each body's quiet steps, for the other's sleep.
@@ -69,6 +69,7 @@ void prepare_constraint(State& state, std::size_t i) {
     const std::uint32_t a = c.a, b = c.b;
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
     c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, parameters_of(state, a));
+    c = physics::with_joints(c, state.properties[a].joints, state.properties[b].joints);
     if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
         c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
                                    state.poses[b].orientation, p);
@@ -200,10 +201,10 @@ void solve_block(State& state, std::size_t first) {
     physics::VelocityPair v = bodies.moved;
     for_each_of_block(state, first, [&](std::size_t i, bool) {
         const physics::Constraint& c = state.constraints[i];
-        const physics::PassOutcome after =
+        const physics::BiasedOutcome after =
             physics::biased_pass(c, state.impulse(i), v, bodies, around_impact(state, c), parameters_of(state, c.a));
         state.keep_impulse(i, after.impulse);
-        write_deltas(state, c, after.share, after.weight, after.passed_on);
+        write_deltas(state, c, after.share, after.impact_weight, after.debt);
         v = after.velocity;
     });
 }
@@ -221,12 +222,12 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
         const physics::Impulse biased = state.impulse(i);
         const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], bodies.a,
                                                   state.impact_debts[c.b], state.forces[c.b], bodies.b);
-        const physics::PassOutcome after = physics::relax_pass(c, biased, v, bodies, around_impact(state, c, debt),
+        const physics::RelaxOutcome after = physics::relax_pass(c, biased, v, bodies, around_impact(state, c, debt),
                                                                (pass & physics::PASS_LAST) != 0, parameters_of(state, c.a));
         if ((pass & physics::PASS_SUMS) != 0)
             state.carried[i] = (pass & physics::PASS_FIRST) != 0 ? after.borne : state.carried[i] + after.borne;
         state.keep_impulse(i, after.impulse);
-        write_deltas(state, c, after.share, weight_of_block(after.weight, is_last, of_block), after.passed_on);
+        write_deltas(state, c, after.share, weight_of_block(after.counts, is_last, of_block), after.normal_sum);
         v = after.velocity;
     });
 }

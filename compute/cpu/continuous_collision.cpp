@@ -95,7 +95,7 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
             const bool driven =
                 driving[1 - side] || (struck && physics::outweighs(state.properties[bodies[1 - side]], state.properties[body]));
             const physics::uint flags = (struck ? physics::STRUCK : 0u) | (driven ? physics::DRIVEN : 0u);
-            if (flags != 0) std::atomic_ref(state.bounds[body].sweep.struck).fetch_or(flags, std::memory_order_relaxed);
+            if (flags != 0) std::atomic_ref(state.bounds[body].sweep.marks).fetch_or(flags, std::memory_order_relaxed);
         }
     });
 }
@@ -106,7 +106,7 @@ void cull_speculative(State& state, const Threads& threads, std::uint32_t) {
         physics::uint& points = state.point_counts[i];
         if (points < physics::SPECULATIVE) return;
         const auto struck = [&](std::uint32_t row) {
-            return (state.bounds[state.body_of(row)].sweep.struck & physics::STRUCK) != 0;
+            return (state.bounds[state.body_of(row)].sweep.marks & physics::STRUCK) != 0;
         };
         const bool predict_pose = !struck(state.pairs[i].a) && !struck(state.pairs[i].b);
         points = predict_pose ? 0 : points - physics::SPECULATIVE;
@@ -131,8 +131,8 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
         bool clamps[2];
         for (int side = 0; side < 2; ++side)
-            clamps[side] = physics::may_clamp(stops[side], state.bounds[bodies[side]].sweep.struck,
-                                              state.properties[bodies[side]], state.bounds[bodies[1 - side]].sweep.struck,
+            clamps[side] = physics::may_clamp(stops[side], state.bounds[bodies[side]].sweep.marks,
+                                              state.properties[bodies[side]], state.bounds[bodies[1 - side]].sweep.marks,
                                               state.properties[bodies[1 - side]], state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
         const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];

@@ -53,7 +53,7 @@ public:
     // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
     bool struck() const {
         return std::any_of(members_.begin(), members_.end(),
-                           [&](const BlockBody& body) { return state_.forces[body.body].impacts != 0; });
+                           [&](const BlockBody& body) { return state_.forces[body.body].impact_weight != 0; });
     }
 
     // ---- a pass: begin() for several blocks, place_rows() once for all, then solve() or gather() of each

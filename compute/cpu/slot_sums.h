@@ -8,7 +8,7 @@ namespace scree::reference {
 struct SlotSum {
     physics::Velocity change{};
     float weight = 0;
-    float normal_impulse = 0;
+    float passed_on = 0;
 };
 
 inline SlotSum sum_of_slots(const State& state, std::size_t body) {
@@ -18,7 +18,7 @@ inline SlotSum sum_of_slots(const State& state, std::size_t body) {
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
         sum.weight += slot.weight;
-        sum.normal_impulse += slot.normal_impulse;
+        sum.passed_on += slot.passed_on;
     }
     return sum;
 }

@@ -29,7 +29,6 @@ void put_into_quarantine(State& state, std::size_t i, float mark) {
     state.properties[i].motion = physics::MOTION_QUARANTINED;
     state.masses[i].shares = mark;
     state.velocities[i] = {};
-    state.forces[i].kept = 1;
     state.sleep_states[i] = 0;
 }
 
@@ -38,7 +37,7 @@ void put_into_quarantine(State& state, std::size_t i, float mark) {
 bool end_body(State& state, std::size_t i, unsigned marks) {
     physics::Velocity& velocity = state.velocities[i];
     const physics::BodyProperties& properties = state.properties[i];
-    const bool moved = state.forces[i].kept != physics::UNSOUND;
+    const bool moved = state.bounds[i].sweep.marks != physics::UNSOUND;
     if (!moved || (marks & is_unsound) != 0) {
         put_into_quarantine(state, i, moved ? physics::AFTER_STEP : physics::AFTER_MOVE);
         std::atomic_ref(state.counted().quarantined).fetch_add(1, std::memory_order_relaxed);

@@ -34,7 +34,7 @@ struct GhostVelocity {
 struct GhostMotion {
     physics::Velocity velocity;
     physics::vec4 orientation;
-    float impacts = 0;
+    float impact_weight = 0;
     float impact_debt = 0;
 };
 struct GhostEnd {
@@ -290,18 +290,18 @@ void Halo::send_sleep_states(State& state, Exchange& exchange) {
 
 void Halo::send_struck(State& state, Exchange& exchange) {
     send<std::uint32_t>(
-        state, exchange, [](const State& s, std::uint32_t row) { return s.bounds[row].sweep.struck; },
-        [](State& s, std::uint32_t row, const std::uint32_t& struck) { s.bounds[row].sweep.struck = struck; });
+        state, exchange, [](const State& s, std::uint32_t row) { return s.bounds[row].sweep.marks; },
+        [](State& s, std::uint32_t row, const std::uint32_t& struck) { s.bounds[row].sweep.marks = struck; });
     Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
-        if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.struck == 0) continue;
+        if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.marks == 0) continue;
         put(sent, state.id_of(row));
-        put(sent, state.bounds[row].sweep.struck);
+        put(sent, state.bounds[row].sweep.marks);
     }
     for (const Bytes& received : exchange.all_gather(sent))
         for (Unpacker from(received); from.has_more();) {
             const std::uint32_t row = state.row_of(from.take<std::uint32_t>());
-            state.bounds[row].sweep.struck |= from.take<std::uint32_t>();
+            state.bounds[row].sweep.marks |= from.take<std::uint32_t>();
         }
 }
 
@@ -321,12 +321,12 @@ void Halo::start_motion(State& state, Exchange& exchange) {
     start<GhostMotion>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
-            return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impacts, s.impact_debts[row]};
+            return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impact_weight, s.impact_debts[row]};
         },
         [](State& s, std::uint32_t row, const GhostMotion& ghost) {
             s.velocities[row] = ghost.velocity;
             s.poses[row].orientation = ghost.orientation;
-            s.forces[row].impacts = ghost.impacts;
+            s.forces[row].impact_weight = ghost.impact_weight;
             s.impact_debts[row] = ghost.impact_debt;
             if (!physics::has_isotropic_inertia(s.properties[row]))
                 s.masses[row] = physics::turned_mass(s.masses[row], s.properties[row], ghost.orientation);

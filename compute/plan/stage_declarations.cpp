@@ -201,7 +201,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
-        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
+        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, some_only({bounds}), unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {impact_debts}, {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
@@ -211,8 +211,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
          {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}, {forces, A::movers, 1}},
-        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({forces}), some_only({masses}), some_only({properties})}, physics::FEATURE_GHOSTS});
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
+        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({masses}), some_only({properties})}, physics::FEATURE_GHOSTS});
 }
 
 std::vector<StageDeclaration> declare() {

@@ -28,7 +28,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 6;
+constexpr std::uint32_t format = 7;
 
 struct Head {
     char magic[8];

@@ -9,7 +9,7 @@
 void main() {
     uint i = thread();
     if (i >= COUNTED.pairs || (WORD(point_counts, i) & SPECULATIVE) == 0u) return;
-    uint flags = READ(bounds, body_of(READ(pairs, i).a)).sweep.struck | READ(bounds, body_of(READ(pairs, i).b)).sweep.struck;
+    uint flags = READ(bounds, body_of(READ(pairs, i).a)).sweep.marks | READ(bounds, body_of(READ(pairs, i).b)).sweep.marks;
     bool struck = (flags & STRUCK) != 0u;
     WORD(point_counts, i) = struck ? WORD(point_counts, i) & ~SPECULATIVE : 0u;
 }

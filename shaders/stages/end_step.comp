@@ -39,12 +39,11 @@ void main() {
     velocity.angular = flush_tiny(velocity.angular + sum.change.angular);
     bool limited = is_spin_limited(velocity, PARAMETERS);
     velocity = held_velocity(velocity, PARAMETERS);
-    bool moved = READ(forces, i).kept != UNSOUND;
+    bool moved = bounds.at[i].sweep.marks != UNSOUND;
     if (!moved || !is_sound(velocity)) {
         properties.at[i].motion = MOTION_QUARANTINED;
         masses.at[i].shares = moved ? AFTER_STEP : AFTER_MOVE;
         velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
-        forces.at[i].kept = 1.0f;
         WORD(sleep_states, i) = 0u;
         atomicAdd(COUNTS.quarantined, 1u);
         return;

@@ -24,9 +24,9 @@ void main() {
     }
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     uint points = READ_WORD(point_counts, i);
-    uint struck_a = bounds.at[a].sweep.struck, struck_b = bounds.at[b].sweep.struck;
-    bool clamps_a = may_clamp(stop_a, struck_a, ta, struck_b, tb, points);
-    bool clamps_b = may_clamp(stop_b, struck_b, tb, struck_a, ta, points);
+    uint marks_a = bounds.at[a].sweep.marks, marks_b = bounds.at[b].sweep.marks;
+    bool clamps_a = may_clamp(stop_a, marks_a, ta, marks_b, tb, points);
+    bool clamps_b = may_clamp(stop_b, marks_b, tb, marks_a, ta, points);
     if (!clamps_a && !clamps_b) return;
     float reach_a = row_a == a ? reach_of(ta) : reach_of(READ(properties, row_a)) + length3(part_in(row_a).position);
     float reach_b = row_b == b ? reach_of(tb) : reach_of(READ(properties, row_b)) + length3(part_in(row_b).position);

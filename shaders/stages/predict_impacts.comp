@@ -39,6 +39,6 @@ void main() {
     uint flags_a = (strikes ? STRUCK : 0u) | (driven_a ? DRIVEN : 0u);
     uint flags_b = (strikes ? STRUCK : 0u) | (driven_b ? DRIVEN : 0u);
     // Whatever the flags: with `if (flags_a != 0u)`, the driver NVIDIA 580.159 left out bodies that have both.
-    atomicOr(bounds.at[of_a].sweep.struck, flags_a);
-    atomicOr(bounds.at[of_b].sweep.struck, flags_b);
+    atomicOr(bounds.at[of_a].sweep.marks, flags_a);
+    atomicOr(bounds.at[of_b].sweep.marks, flags_b);
 }

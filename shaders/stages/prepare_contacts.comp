@@ -23,6 +23,7 @@ Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair 
     BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
     Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, own);
+    constraint = with_joints(constraint, READ(properties, of_a).joints, READ(properties, of_b).joints);
     if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
         constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
                                    READ(poses, of_b).orientation, PARAMETERS);

@@ -124,7 +124,7 @@ TEST_CASE("an unloaded contact that nothing may load changes nothing in the bias
     for (int i = 0; i < 40000; ++i) {
         const Parameters p = parameters_of(i % 4 != 0);
         const Meeting m = random_meeting(noise);
-        const PassOutcome after = biased_pass(m.c, m.impulse, m.v, {m.a, m.b, m.v, 1}, no_impact_context(), p);
+        const BiasedOutcome after = biased_pass(m.c, m.impulse, m.v, {m.a, m.b, m.v, 1}, no_impact_context(), p);
         const bool stays = same_bits(after.impulse, m.impulse) && same_values(after.velocity, m.v);
         if (may_load_biased(m.c, m.impulse, m.v, p)) {
             tally.add(m.c, stays ? tally.doubted : tally.loaded);
@@ -133,8 +133,8 @@ TEST_CASE("an unloaded contact that nothing may load changes nothing in the bias
         INFO("contact " << i);
         REQUIRE(stays);
         REQUIRE(is_zero(after.share));
-        REQUIRE(after.weight == 0);
-        REQUIRE(after.passed_on == 0);
+        REQUIRE(after.impact_weight == 0);
+        REQUIRE(after.debt == 0);
         tally.add(m.c, tally.kept);
     }
     tally.check();
@@ -146,9 +146,9 @@ TEST_CASE("an unloaded contact that nothing may load changes in the relax pass b
     for (int i = 0; i < 40000; ++i) {
         const Parameters p = parameters_of(i % 4 != 0);
         const Meeting m = random_meeting(noise);
-        const PassOutcome after = relax_pass(m.c, m.impulse, m.v, {m.a, m.b, m.v, 1}, no_impact_context(), i % 8 == 0, p);
+        const RelaxOutcome after = relax_pass(m.c, m.impulse, m.v, {m.a, m.b, m.v, 1}, no_impact_context(), i % 8 == 0, p);
         const Impulse moved = after_motion(m.c, m.impulse, m.v, p);
-        const bool stays = same_bits(after.impulse, moved) && same_values(after.velocity, m.v) && after.weight == 0;
+        const bool stays = same_bits(after.impulse, moved) && same_values(after.velocity, m.v) && after.counts == 0;
         if (may_load_relaxed(m.c, moved, m.v, p)) {
             tally.add(m.c, stays ? tally.doubted : tally.loaded);
             continue;

@@ -54,7 +54,7 @@ struct KeptBodies {
     Float angular_damping;
     vec3 inverse_inertia;
     Float inverse_mass;
-    Uint motion, joints;
+    Uint motion;
 };
 static_assert(sizeof(KeptBodies) == reference::words_of_body * sizeof(Words));
 
@@ -69,7 +69,7 @@ struct BodyGroup {
             properties = gather<BodyProperties>(tables.properties, bodies);
             load = gather<BodyForces>(tables.forces, bodies);
             kept = {load.acceleration,          properties.linear_damping, load.angular_acceleration, properties.angular_damping,
-                    properties.inverse_inertia, properties.inverse_mass,   properties.motion,         properties.joints};
+                    properties.inverse_inertia, properties.inverse_mass,   properties.motion};
             return;
         }
         load.acceleration = kept.acceleration;
@@ -79,7 +79,6 @@ struct BodyGroup {
         properties.inverse_inertia = kept.inverse_inertia;
         properties.inverse_mass = kept.inverse_mass;
         properties.motion = kept.motion;
-        properties.joints = kept.joints;
     }
 };
 
@@ -96,7 +95,7 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         const Indices live = bodies.only(living(first, last));
         const Velocity velocity =
             integrate_velocity(gather<Velocity>(tables.velocities, bodies), change, group.load, group.properties, p);
-        const Float shares = pack_shares(sum.weight, sum.normal_impulse);
+        const Float shares = pack_shares(sum.weight, sum.passed_on);
         scatter(tables.velocities, live, velocity);
         scatter_member<BodyMass>(tables.masses, live, offsetof(BodyMass, shares), shares);
     }
@@ -117,15 +116,14 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         const Indices live = bodies.only(living(first, last));
         const Bool sound = is_sound(after.pose) && is_sound(after.velocity);
         if (!none(!sound)) {
-            scatter_member<BodyForces>(tables.forces, live.only(!sound), offsetof(BodyForces, kept), Float(UNSOUND));
+            scatter_member<Bounds>(tables.bounds, live.only(!sound), offsetof(Bounds, sweep.marks), UNSOUND);
             after = moved_soundly(sound, before, after);
         }
         if (tables.sums_impacts)
-            scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impacts),
-                                       impacts_of(sum.weight, group.properties));
+            scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impact_weight), sum.weight);
         if (!none(sum.weight > 0.0f))
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-                if (sum.weight.v[lane] > 0) tables.impact_debts[bodies.of[lane]] = sum.normal_impulse.v[lane];
+                if (sum.weight.v[lane] > 0) tables.impact_debts[bodies.of[lane]] = sum.passed_on.v[lane];
         scatter(tables.poses, live, after.pose);
         scatter(tables.velocities, live, after.velocity);
         const Bool turns = !has_isotropic_inertia(group.properties);

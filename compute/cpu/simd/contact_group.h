@@ -59,6 +59,7 @@ SCREE_INLINE Constraint narrowed(Constraint c) {
 SCREE_INLINE void narrow(Impulse& impulse) {
     impulse.impact = vec4(0.0f);
     impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
+    impulse.speed_before_push = impulse.response = 0.0f;
 }
 template <bool plain>
 SCREE_INLINE Impulse narrowed(Impulse impulse) {
@@ -67,9 +68,9 @@ SCREE_INLINE Impulse narrowed(Impulse impulse) {
 }
 
 SCREE_INLINE void to_slots(const WideTables& tables, Bool live, const Constraint& c, const VelocityPair& share, Float weight,
-                           Float normal_impulse) {
-    scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
-    scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
+                           Float passed_on) {
+    scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, passed_on));
+    scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, passed_on));
 }
 
 // What the motion of a substep changes (after_motion).
@@ -108,13 +109,13 @@ struct Group {
     SCREE_INLINE ImpactContext around_impact(const WideTables& tables, const Parameters& p) const {
         if (none(c.restitution > 0.0f)) return no_impact_context();
         return choose_record(c.restitution > 0.0f,
-                             impact_context(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
+                             impact_context(c, gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
                                             gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
                              no_impact_context());
     }
     SCREE_INLINE void write_deltas(const WideTables& tables, const VelocityPair& share, Float weight,
-                                   Float normal_impulse) const {
-        to_slots(tables, live, c, share, weight, normal_impulse);
+                                   Float passed_on) const {
+        to_slots(tables, live, c, share, weight, passed_on);
     }
     // What the biased pass changes, and what both do: fields that stay are not written.
     SCREE_INLINE void keep_solved(const Impulse& after) const {
@@ -130,6 +131,8 @@ struct Group {
         record.impulse.impact_energy = after.impact_energy;
         record.impulse.impact_weight = after.impact_weight;
         record.impulse.flight_energy = after.flight_energy;
+        record.impulse.speed_before_push = after.speed_before_push;
+        record.impulse.response = after.response;
     }
     SCREE_INLINE void keep(const Impulse& after) const {
         keep_solved(after);

@@ -51,6 +51,15 @@ SCREE_INLINE Inherited inherited(const WideTables& tables, const Indices& contac
     return found;
 }
 
+// The joints of bodies.
+SCREE_INLINE Uint joints_of(const WideTables& tables, const Indices& bodies) {
+    constexpr std::size_t words_of_record = sizeof(BodyProperties) / sizeof(Words);
+    constexpr std::size_t place = offsetof(BodyProperties, joints) / sizeof(Words);
+    Words joints;
+    for (int lane = 0; lane < lanes; ++lane) joints[lane] = tables.properties[words_of_record * bodies.of[lane] + place];
+    return Uint(joints);
+}
+
 // Prefetches what preparation reads of the next group of contacts; of parts it is their own rows, not their bodies'.
 SCREE_INLINE void prefetch_inherited(const WideTables& tables, std::size_t first, std::size_t last) {
     if (last < first + lanes) return;
@@ -85,6 +94,7 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
         Constraint c =
             constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
         const Indices a(c.a), b(c.b);
+        c = with_joints(c, joints_of(tables, a), joints_of(tables, b));
         const VelocityPair now{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)};
         const Bool live = living(first, last);
         const Indices written = contacts.only(live);
@@ -120,6 +130,7 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
             const Constraint was = prepared.c;
             Constraint c = constraint_between(contact, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
+            c = with_joints(c, joints_of(tables, Indices(was.a)), joints_of(tables, Indices(was.b)));
             prepared.c = none(!waits) ? c : choose_record(waits, c, was);
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
         }
@@ -146,10 +157,10 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         prefetch_next<plain>(tables, first, last, group.c);
         const BlockBodies bodies{split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p),
                                  split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p), group.before, 1.0f};
-        const PassOutcome after = biased_pass(group.c, group.impulse, group.before, bodies, group.around_impact(tables, p), p);
+        const BiasedOutcome after = biased_pass(group.c, group.impulse, group.before, bodies, group.around_impact(tables, p), p);
         group.keep_solved(after.impulse);
         if (tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.write_deltas(tables, after.share, after.weight, after.passed_on);
+        group.write_deltas(tables, after.share, after.impact_weight, after.debt);
     }
 }
 void solve(const WideTables& tables, std::size_t first, std::size_t last) {
@@ -200,12 +211,12 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
                                  group.before, 1.0f};
         ImpactContext around = group.around_impact(tables, p);
         around.debt = debts(tables, group, bodies.a, bodies.b);
-        const PassOutcome after = relax_pass(group.c, group.impulse, group.before, bodies, around, tables.last, p);
+        const RelaxOutcome after = relax_pass(group.c, group.impulse, group.before, bodies, around, tables.last, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.borne, last - first);
         group.keep(after.impulse);
         if (tables.last || tables.watched) give_back<plain>(tables, group.record, first, last);
-        group.write_deltas(tables, after.share, after.weight, after.passed_on);
-        unloaded = is_unloaded(after.impulse, after.share, after.weight);
+        group.write_deltas(tables, after.share, after.counts, after.normal_sum);
+        unloaded = is_unloaded(after.impulse, after.share, after.counts);
     }
 }
 void relax(const WideTables& tables, std::size_t first, std::size_t last) {

@@ -130,9 +130,9 @@ struct Mass {
 };
 struct BodyForces {
     vec3 acceleration;          // gravity and forces, m/s^2, constant over the step
-    float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h); UNSOUND
+    float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h)
     vec3 angular_acceleration;  // rad/s^2
-    float impacts;              // contacts in an impact with restitution in this substep; negative for a body on joints
+    float impact_weight;        // of its contacts in an impact with restitution in this substep, N s
 };
 
 // User action on a body in one step; at most one record per body (the host sums).
@@ -192,7 +192,7 @@ struct Sweep {      // motion of a body through the step
     float pad0;
     vec4 orientation;  // at the start
     uint stops[2];     // float bits of the fraction of the step at which it is clamped, or NO_HIT; CCD rounds alternate
-    uint struck;       // flags STRUCK and DRIVEN (sweep.h)
+    uint marks;        // STRUCK, DRIVEN, UNSOUND (sweep.h)
     uint pad1;
 };
 
@@ -265,9 +265,11 @@ struct ContactImpact {
     float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
     float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
     float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
-    // That gravity adds to the rebound of its bodies in this substep, J. Of an impact on joints that lasts: between substeps the
-    // speed before its last push, m/s; within a substep what that push changed, of an impulse of 1, 1/kg.
-    float flight_energy;
+    float flight_energy;   // that gravity adds to the rebound of its bodies in this substep, J
+    // Of an impact on joints that lasts.
+    float speed_before_push;  // along its mode before its last push, m/s, != 0; between substeps
+    float response;           // change of that speed by an impulse of 1, 1/kg, from that push; within a substep
+    float pad0, pad1;
 };
 // Both, as the solver computes with them (contact_impulse.h); tables have them apart, because most scenes have no restitution.
 struct Impulse {
@@ -282,6 +284,7 @@ struct Impulse {
     float normal_sum;
     vec3 stretch;
     float turn;
+    float speed_before_push, response, pad0, pad1;
 };
 
 // ---- contacts: solver data of this step
@@ -292,6 +295,7 @@ CONSTANT uint CONSTRAINT_ROUND = 16u;       // neither: the single point of two 
 CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not resist spinning
 CONSTANT uint CONSTRAINT_FOLLOWS = 64u;     // its block has a contact before it (contact_block.h)
 CONSTANT uint CONSTRAINT_LEADS = 128u;      // its block has a contact behind it
+CONSTANT uint CONSTRAINT_ON_JOINTS = 256u;  // it moves a body that is on joints
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts
@@ -315,11 +319,11 @@ struct Constraint {
     uint links;                // next_of_block()
     float slide_limit;         // slide after which the points have left the body they slide over, m
 };
-struct VelocityDelta {     // velocity change of one body by one contact; summed in the order of slots
-    vec3 linear;           // m/s
-    float weight;          // in the mass splitting that follows: 1 if active; after the biased pass, that of an impact
-    vec3 angular;          // rad/s
-    float normal_impulse;  // that the contact bears, N s; after the biased pass its impact_debt, J (restitution.h)
+struct VelocityDelta {  // velocity change of one body by one contact; summed in the order of slots
+    vec3 linear;        // m/s
+    float weight;       // in the mass splitting that follows: of active contacts, of impacts after the biased pass
+    vec3 angular;       // rad/s
+    float passed_on;    // to the pass that follows: normal impulse, N s; impact_debt() after the biased pass, J
 };
 
 // ---- joints

@@ -20,7 +20,7 @@ LAW BodyForces gravity_forces(BodyProperties properties, Parameters parameters) 
     load.acceleration = choose(properties.motion == MOTION_DYNAMIC, gravity, vec3(0.0f));
     load.kept = 1.0f;
     load.angular_acceleration = vec3(0.0f);
-    load.impacts = 0.0f;
+    load.impact_weight = 0.0f;
     return load;
 }
 
@@ -69,8 +69,6 @@ LAW Velocity held_velocity(Velocity velocity, Parameters parameters) {
     velocity.angular = shortened(velocity.angular, 2.0f * parameters.max_spin);
     return velocity;
 }
-
-CONSTANT float UNSOUND = -1.0f;  // for BodyForces.kept
 
 LAW bool is_within(vec3 v, float most) {
     return abs(v.x) <= most && abs(v.y) <= most && abs(v.z) <= most;

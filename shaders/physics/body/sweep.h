@@ -41,9 +41,10 @@ LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters p
     return may_be && way * parameters.dt > ccd_threshold(properties);
 }
 
-// Flags of Sweep.struck, of what is predicted for the step.
-CONSTANT uint STRUCK = 1u;  // a contact will deflect the body
-CONSTANT uint DRIVEN = 2u;  // a fast kinematic body, or one that outweighs it, will drive it
+// Marks of a sweep.
+CONSTANT uint STRUCK = 1u;   // a contact will deflect the body
+CONSTANT uint DRIVEN = 2u;   // a fast kinematic body, or one that outweighs it, will drive it
+CONSTANT uint UNSOUND = 4u;  // its motion was not finite (quarantine.h)
 // Whether the body drives what it meets further than the margin in which the broadphase searched for that. Nothing stops a
 // kinematic body, so what is clamped before it would be left behind.
 LAW bool drives(BodyProperties properties, Velocity velocity, Parameters parameters) {
@@ -83,7 +84,7 @@ LAW Sweep sweep_of(Pose pose) {
     sweep.orientation = pose.orientation;
     sweep.stops[0] = floatBitsToUint(NO_HIT);
     sweep.stops[1] = floatBitsToUint(NO_HIT);
-    sweep.struck = 0u;
+    sweep.marks = 0u;
     sweep.pad1 = 0u;
     return sweep;
 }

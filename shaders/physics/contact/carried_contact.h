@@ -16,6 +16,10 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.impact_energy = 0.0f;
     impulse.impact_weight = 0.0f;
     impulse.flight_energy = 0.0f;
+    impulse.speed_before_push = 0.0f;
+    impulse.response = 0.0f;
+    impulse.pad0 = 0.0f;
+    impulse.pad1 = 0.0f;
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);
@@ -42,7 +46,7 @@ LAW Impulse carry_forward(Contact contact, Impulse was) {
     impulse.impact = was.impact;
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;
-    impulse.flight_energy = was.flight_energy;
+    impulse.speed_before_push = was.speed_before_push;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

@@ -84,7 +84,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches, bool point_
     }
     impulse.rebound_energy = was.rebound_energy;
     impulse.impact_energy = was.impact_energy;
-    impulse.flight_energy = was.flight_energy;
+    impulse.speed_before_push = was.speed_before_push;
     bool bears = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f;
     bool twists = bears && (now.count > 1u || point_twists);
     impulse.friction = choose(bears, flush_tiny(was.friction - now.normal * dot3(was.friction, now.normal)), impulse.friction);

@@ -145,6 +145,12 @@ LAW Constraint constraint_between(Contact contact, BodyProperties ta, uint body_
     c.b = body_b;
     return c;
 }
+// `joints_a`, `joints_b`: of the bodies that the rows belong to.
+LAW Constraint with_joints(Constraint c, uint joints_a, uint joints_b) {
+    bool held = (c.slot_a != NONE && joints_a != NONE) || (c.slot_b != NONE && joints_b != NONE);
+    c.flags = c.flags | choose(held, CONSTRAINT_ON_JOINTS, 0u);
+    return c;
+}
 
 LAWS_END
 

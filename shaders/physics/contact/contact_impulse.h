@@ -13,6 +13,10 @@ LAW ContactImpact no_impact() {
     none.impact_energy = 0.0f;
     none.impact_weight = 0.0f;
     none.flight_energy = 0.0f;
+    none.speed_before_push = 0.0f;
+    none.response = 0.0f;
+    none.pad0 = 0.0f;
+    none.pad1 = 0.0f;
     return none;
 }
 LAW Impulse whole_impulse(ContactImpulse kept, ContactImpact impact) {
@@ -24,6 +28,10 @@ LAW Impulse whole_impulse(ContactImpulse kept, ContactImpact impact) {
     impulse.impact_energy = impact.impact_energy;
     impulse.impact_weight = impact.impact_weight;
     impulse.flight_energy = impact.flight_energy;
+    impulse.speed_before_push = impact.speed_before_push;
+    impulse.response = impact.response;
+    impulse.pad0 = 0.0f;
+    impulse.pad1 = 0.0f;
     impulse.friction = kept.friction;
     impulse.twist = kept.twist;
     impulse.rolling = kept.rolling;
@@ -55,6 +63,10 @@ LAW ContactImpact contact_impact_of(Impulse impulse) {
     impact.impact_energy = impulse.impact_energy;
     impact.impact_weight = impulse.impact_weight;
     impact.flight_energy = impulse.flight_energy;
+    impact.speed_before_push = impulse.speed_before_push;
+    impact.response = impulse.response;
+    impact.pad0 = 0.0f;
+    impact.pad1 = 0.0f;
     return impact;
 }
 

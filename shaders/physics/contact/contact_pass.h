@@ -16,13 +16,23 @@ struct BlockBodies {
     VelocityPair moved;  // of the whole bodies as the pass begins
     float part;          // of the stiffness that each penetrating point has (contact_block.h); 1 for a contact by itself
 };
-struct PassOutcome {
+struct BiasedOutcome {
     Impulse impulse;        // that the contact keeps
     VelocityPair velocity;  // of the split bodies, for the next contact of the block
+    VelocityPair share;     // change of the whole bodies' velocities
+    float impact_weight;    // among the impacts of its bodies, N s
+    float debt;             // impact_debt(), J
+    float pad0;
+    float pad1;
+};
+struct RelaxOutcome {
+    Impulse impulse;        // with which the next substep begins
+    VelocityPair velocity;  // of the split bodies, for the next contact of the block
     VelocityPair share;     // change of the whole bodies' velocities, with the next substep's warm start
-    float weight;           // in the mass splitting that follows; after the biased pass, that of an impact
-    float passed_on;        // normal impulse, N s; after the biased pass the impact_debt, J
-    float borne;            // normal impulse of the relax pass, impacts included, N s
+    float counts;           // 1 if it counts in the mass splitting of the next substep, else 0
+    float normal_sum;       // of `impulse`, N s
+    float borne;            // normal impulse of this pass, impacts included, N s
+    float pad0;
 };
 
 #ifndef SCREE_LANES  // lanes take single contacts, and read less
@@ -50,34 +60,36 @@ LAW BlockBodies relax_bodies(BodyMass a, BodyForces load_a, BodyMass b, BodyForc
 #endif
 
 // The biased pass. `v`: of the split bodies.
-LAW PassOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around,
-                            Parameters parameters) {
+LAW BiasedOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around,
+                              Parameters parameters) {
     SolveResult after = solve_contact(c, impulse, v, bodies.a, bodies.b, around, bodies.part, parameters);
     c = refresh_round_contact(c, after.impulse.center_offset);
-    PassOutcome outcome;
+    BiasedOutcome outcome;
     outcome.impulse = after.impulse;
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, after.impulse, false, bodies.a, bodies.b);
-    outcome.weight = after.impulse.impact_weight;
-    outcome.passed_on = impact_debt(after.impulse);
-    outcome.borne = 0.0f;
+    outcome.impact_weight = after.impulse.impact_weight;
+    outcome.debt = impact_debt(after.impulse);
+    outcome.pad0 = 0.0f;
+    outcome.pad1 = 0.0f;
     return outcome;
 }
 
 // The relax pass. `last`: in the last substep of a step, whose impulses the next step takes up.
-LAW PassOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around, bool last,
-                           Parameters parameters) {
+LAW RelaxOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, BlockBodies bodies, ImpactContext around, bool last,
+                            Parameters parameters) {
     SolveResult after = relax_contact(c, impulse, bodies.moved, v, bodies.a, bodies.b, around, bodies.part, parameters);
     c = refresh_round_contact(c, after.impulse.center_offset);
-    PassOutcome outcome;
+    RelaxOutcome outcome;
     outcome.borne = normal_impulse(after.impulse);
     outcome.impulse = clear_impacts(after.impulse, point_count(c));
     for (int k = 0; k < 4; ++k) outcome.impulse.normal[k] = choose(after.restarts[k] > 0.0f, 0.0f, outcome.impulse.normal[k]);
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
-    outcome.weight = counts_next(c, impulse, outcome.impulse, after.speeds, bodies.a, bodies.b, parameters);
-    outcome.passed_on = outcome.impulse.normal_sum;
+    outcome.counts = counts_next(c, impulse, outcome.impulse, after.speeds, bodies.a, bodies.b, parameters);
+    outcome.normal_sum = outcome.impulse.normal_sum;
+    outcome.pad0 = 0.0f;
     return outcome;
 }
 

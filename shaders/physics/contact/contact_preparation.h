@@ -70,7 +70,7 @@ LAW float impact_work(Constraint c, vec4 impact, vec3 center_offset, VelocityPai
 // An impact that lasts from the last step, whose last impulses did their work along the rows of that step, `before`: the
 // first biased pass takes the present rows, `c`. They differ where bodies were clamped to a time of impact.
 LAW Impulse settled_impact(Impulse impulse, Constraint c, Impulse was, Constraint before, VelocityPair now) {
-    if (was.flight_energy != 0.0f) return impulse;  // on joints: the work is known by the velocities that are reached
+    if (was.speed_before_push != 0.0f) return impulse;  // on joints: the work is known by the velocities that are reached
     float work =
         impact_work(c, impulse.impact, impulse.center_offset, now) - impact_work(before, was.impact, was.center_offset, now);
     impulse.rebound_energy = flush_least(impulse.rebound_energy + work);

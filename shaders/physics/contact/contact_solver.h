@@ -310,12 +310,12 @@ LAW bool may_load_relaxed(Constraint c, Impulse impulse, VelocityPair v, Paramet
     return loads;
 }
 
-LAW VelocityDelta velocity_delta(Velocity share, float weight, float normal_impulse) {
+LAW VelocityDelta velocity_delta(Velocity share, float weight, float passed_on) {
     VelocityDelta slot;
     slot.linear = flush_tiny(share.linear);
     slot.weight = weight;
     slot.angular = flush_tiny(share.angular);
-    slot.normal_impulse = normal_impulse;
+    slot.passed_on = passed_on;
     return slot;
 }
 LAWS_END

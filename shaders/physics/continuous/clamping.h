@@ -22,8 +22,8 @@ LAW bool outweighs(BodyProperties heavy, BodyProperties light) {
 }
 // Whether a pair may clamp the one body, `body`, by the other. A contact of the pair pushes what is driven ahead, though that
 // may lag behind by a part of a substep; of two that are driven both, neither is left behind for the other.
-LAW bool may_clamp(float stop, uint struck, BodyProperties body, uint other_struck, BodyProperties other, uint contact_points) {
-    bool driven = (struck & DRIVEN) != 0u, other_driven = (other_struck & DRIVEN) != 0u;
+LAW bool may_clamp(float stop, uint marks, BodyProperties body, uint other_marks, BodyProperties other, uint contact_points) {
+    bool driven = (marks & DRIVEN) != 0u, other_driven = (other_marks & DRIVEN) != 0u;
     bool pushes = (driven && other.motion == MOTION_KINEMATIC) || (driven && other_driven) || outweighs(body, other) ||
                   outweighs(other, body);
     return stop <= 1.0f && !(pushes && contact_points > 0u);
@@ -58,7 +58,7 @@ LAW float part_within(float way, float growth, float back, float ahead) {
 // if it stays within. Beyond, a ricochet could pass bodies that it was not paired with. But a body that rested and is
 // driven by a fast kinematic body must keep ahead of that.
 LAW float seen_part(BodyProperties properties, Sweep sweep, Pose end, Bounds bounds) {
-    if ((sweep.struck & DRIVEN) != 0u) return 1.0f;
+    if ((sweep.marks & DRIVEN) != 0u) return 1.0f;
     vec3 half_size = half_extents_of(properties, sweep.orientation);
     vec3 growth = larger3(half_extents_of(properties, end.orientation) - half_size, vec3(0.0f));
     half_size = half_size - vec3(ccd_threshold(properties));

@@ -7,11 +7,6 @@
 
 LAWS_BEGIN
 
-// What BodyForces.impacts holds: the sum of the weights of its impacts, negative for a body on joints.
-LAW float impacts_of(float struck, BodyProperties body) {
-    return choose(body.joints != NONE, -struck, struck);
-}
-
 // What gravity adds to a speed in a substep, m/s; without gravity, the slowest impact of the settings.
 LAW float fall_speed(Parameters parameters) {
     return choose(has_weight(parameters), parameters.h * length3(parameters.gravity), parameters.restitution_threshold);
@@ -30,7 +25,7 @@ LAW bool is_under_blow(BodyMass body, Parameters parameters) {
 struct ImpactContext {
     vec3 acceleration;  // of B relative to A, m/s^2
     float debt;         // the contact's part of its bodies' debts (restitution.h), J; in the relax pass
-    bool on_joints;     // one of the bodies is on joints
+    bool on_joints;     // it moves a body that is on joints
     bool under_blow;    // one of the bodies is under a blow
 };
 LAW ImpactContext no_impact_context() {
@@ -41,11 +36,12 @@ LAW ImpactContext no_impact_context() {
     around.under_blow = false;
     return around;
 }
-LAW ImpactContext impact_context(BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b, Parameters parameters) {
+LAW ImpactContext impact_context(Constraint c, BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b,
+                                 Parameters parameters) {
     ImpactContext around;
     around.acceleration = b.acceleration - a.acceleration;
     around.debt = 0.0f;
-    around.on_joints = a.impacts < 0.0f || b.impacts < 0.0f;
+    around.on_joints = (c.flags & CONSTRAINT_ON_JOINTS) != 0u;
     around.under_blow = is_under_blow(mass_a, parameters) || is_under_blow(mass_b, parameters);
     return around;
 }

@@ -97,12 +97,12 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, vec3 speeds, Impac
     }
     float before = impulse.rebound_energy;
     float left = flush_least(before - work);
-    bool joined = impulse.impact_energy > 0.0f && impulse.flight_energy != 0.0f, held = false;
+    bool joined = impulse.impact_energy > 0.0f && impulse.speed_before_push != 0.0f, held = false;
     float response = 0.0f;
     if (!none(joined)) {
         float pushed = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
         float reached = 2.0f * (work * reciprocal(larger(pushed, 1.0e-18f)));
-        JoinedPush push = joined_push(pushed, impulse.flight_energy, reached, before, c.restitution * c.restitution);
+        JoinedPush push = joined_push(pushed, impulse.speed_before_push, reached, before, c.restitution * c.restitution);
         left = choose(joined, push.energy, left);
         held = joined && push.progress < REBOUND_PROGRESS * before;
         response = push.response;
@@ -115,7 +115,9 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, vec3 speeds, Impac
     impulse.impact_energy = choose(lasts, impulse.impact_energy, 0.0f);
     impulse.impact_weight =
         choose(lasts, weight * ((impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w)), 0.0f);
-    impulse.flight_energy = choose(lasts && joined, response, 0.0f);
+    impulse.flight_energy = 0.0f;
+    impulse.speed_before_push = 0.0f;
+    impulse.response = choose(lasts && joined, response, 0.0f);
     return impulse;
 }
 
@@ -154,6 +156,8 @@ LAW Impulse with_impact(Impulse impulse, Impulse impact, bool condition) {
     impulse.impact_energy = choose(condition, impact.impact_energy, 0.0f);
     impulse.impact_weight = choose(condition, impact.impact_weight, 0.0f);
     impulse.flight_energy = choose(condition, impact.flight_energy, 0.0f);
+    impulse.speed_before_push = choose(condition, impact.speed_before_push, 0.0f);
+    impulse.response = choose(condition, impact.response, 0.0f);
     return impulse;
 }
 
@@ -184,7 +188,6 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     float pushed_by = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
     rests = rests && impulse.rebound_energy < 0.5f * (pushed_by * slowest_impact(c, around, parameters));
     impulse = with_impact(impulse, impulse, !rests);
-    bool joined = impulse.flight_energy > 0.0f;  // a response
     for (int k = 0; k < 4; ++k) {
         float pressed = impulse.normal[k] - normal_before[k];
         bool struck = (striking[k] < 0.0f || impulse.impact[k] > 0.0f) && pressed > 0.0f;
@@ -205,7 +208,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     impulse.impact = flush_tiny(impulse.impact);
     impulse.impact_weight = flush_tiny(impulse.impact_weight);
     impulse.rebound_energy = flush_least(impulse.rebound_energy);
-    impulse.flight_energy = choose(joined, impulse.flight_energy, flush_least(flights));
+    impulse.flight_energy = flush_least(flights);
     return impulse;
 }
 
@@ -287,7 +290,7 @@ LAW Impulse with_restitution(Constraint met, NormalRows met_rows, vec3 reached, 
     // An approach that is left, or a speed of the push-out, is energy of the compression as well.
     ImpactMode before = impact_mode(met, impulse, reached, met_rows);
     bool joined = around.on_joints, answered = joined && impulse.impact_energy > 0.0f;
-    if (!none(answered)) before = of_assembly(before, impulse.flight_energy, answered);
+    if (!none(answered)) before = of_assembly(before, impulse.response, answered);
     float rest = 0.5f * ((before.speed * before.speed) * reciprocal(before.inverse_effective_mass));
     bool compressed = pressed > 0.0f || before.speed < 0.0f;
     float flight = choose(answered, 0.0f, impulse.flight_energy * reciprocal(larger(a.split, b.split)));
@@ -295,7 +298,7 @@ LAW Impulse with_restitution(Constraint met, NormalRows met_rows, vec3 reached, 
     float energy = stored - choose(compressed, (1.0f - e2) * rest, 0.0f);
 
     ImpactMode mode = impact_mode(c, impulse, speeds, rows);
-    if (!none(answered)) mode = of_assembly(mode, impulse.flight_energy, answered);
+    if (!none(answered)) mode = of_assembly(mode, impulse.response, answered);
     float squared = mode.speed * mode.speed + 2.0f * (energy * mode.inverse_effective_mass);
     float push = (square_root(positive(squared)) - mode.speed) * reciprocal(mode.inverse_effective_mass);
     vec4 normal = impulse.normal;
@@ -320,22 +323,24 @@ LAW Impulse with_restitution(Constraint met, NormalRows met_rows, vec3 reached, 
     impulse.impact_energy = choose(lasts, larger(impulse.impact_energy, flush_least(to_return)), 0.0f);
     impulse.rebound_energy = choose(lasts, flush_least(choose(joined, stored, energy - done)), 0.0f);
     float from = choose(mode.speed == 0.0f, -1.0e-9f, mode.speed);
-    impulse.flight_energy = choose(lasts && joined, from, 0.0f);
+    impulse.flight_energy = 0.0f;
+    impulse.speed_before_push = choose(lasts && joined, from, 0.0f);
+    impulse.response = 0.0f;
     return impulse;
 }
 
 // The split mass in the relax pass: a struck body is split among its impacts by their weights.
 LAW Mass impact_mass(Impulse impulse, BodyMass body, BodyForces load, Parameters parameters) {
     Mass mass = split_mass(body, impulse, parameters);
-    float split = abs(load.impacts) * reciprocal(larger(impulse.impact_weight, 1.0e-18f));
+    float split = load.impact_weight * reciprocal(larger(impulse.impact_weight, 1.0e-18f));
     mass.split = choose(is_impact(impulse), larger(1.0f, split), mass.split);
     return mass;
 }
 
 // The contact's part of its bodies' debts, J: the impacts of a body share them as they share its mass.
 LAW float part_of_debts(Impulse impulse, float debt_a, BodyForces load_a, Mass a, float debt_b, BodyForces load_b, Mass b) {
-    debt_a = choose(load_a.impacts != 0.0f, debt_a * reciprocal(a.split), 0.0f);
-    debt_b = choose(load_b.impacts != 0.0f, debt_b * reciprocal(b.split), 0.0f);
+    debt_a = choose(load_a.impact_weight != 0.0f, debt_a * reciprocal(a.split), 0.0f);
+    debt_b = choose(load_b.impact_weight != 0.0f, debt_b * reciprocal(b.split), 0.0f);
     return choose(is_impact(impulse), debt_a + debt_b, 0.0f);
 }
 

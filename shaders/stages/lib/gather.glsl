@@ -7,7 +7,7 @@ const uint LONG_LIST = 32u;  // slots
 struct Gathered {
     Velocity change;
     float weight;
-    float normal_impulse;
+    float passed_on;
 };
 
 uint first_slot_of(uint body) {
@@ -17,14 +17,14 @@ Gathered added(Gathered sum, VelocityDelta slot) {
     sum.change.linear = sum.change.linear + slot.linear;
     sum.change.angular = sum.change.angular + slot.angular;
     sum.weight = sum.weight + slot.weight;
-    sum.normal_impulse = sum.normal_impulse + slot.normal_impulse;
+    sum.passed_on = sum.passed_on + slot.passed_on;
     return sum;
 }
 Gathered gather(uint body) {
     Gathered sum;
     sum.change = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
     sum.weight = 0.0f;
-    sum.normal_impulse = 0.0f;
+    sum.passed_on = 0.0f;
     uint k = first_slot_of(body), last = READ_WORD(slot_ends, body);
     // Four a round of a long list, which then waits less for memory; lavapipe silently ends a shader's loops after 65,535 rounds.
     for (; k + LONG_LIST <= last; k += 4u) {

@@ -36,7 +36,7 @@ void begin_body(uint i) {
             velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    masses.at[i].shares = pack_shares(sum.weight, sum.normal_impulse);
+    masses.at[i].shares = pack_shares(sum.weight, sum.passed_on);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
@@ -51,13 +51,13 @@ void move_body(uint i) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        forces.at[i].impacts = impacts_of(sum.weight, body);
-        if (sum.weight > 0.0f) SET_FLOAT(impact_debts, i, sum.normal_impulse);
+        forces.at[i].impact_weight = sum.weight;
+        if (sum.weight > 0.0f) SET_FLOAT(impact_debts, i, sum.passed_on);
     }
     RigidState after = integrate(READ(poses, i), held_velocity(velocity, PARAMETERS), body, PARAMETERS.h);
     bool sound = is_sound(after.pose) && is_sound(after.velocity);
     if (!sound) {
-        forces.at[i].kept = UNSOUND;
+        bounds.at[i].sweep.marks = UNSOUND;
         after = moved_soundly(sound, READ(poses, i), after);
     }
     poses.at[i] = after.pose;

@@ -11,7 +11,7 @@
 
 ImpactContext around_impact(Constraint c) {
     if (!(c.restitution > 0.0f)) return no_impact_context();
-    return impact_context(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), parameters_of(c.a));
+    return impact_context(c, READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), parameters_of(c.a));
 }
 VelocityPair velocities_of(Constraint c) {
     VelocityPair v;
@@ -60,11 +60,11 @@ void solve_contact(uint place) {
             c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
         }
-        PassOutcome after = biased_pass(c, impulse, v, bodies, around_impact(c), parameters_of(c.a));
+        BiasedOutcome after = biased_pass(c, impulse, v, bodies, around_impact(c), parameters_of(c.a));
         write_impulses(here - 1u, contact_impulse_of(after.impulse),
                        SOLVED_MEMBERS | (ROLLS ? MEMBER_OF_ContactImpulse_rolling : 0u));
         if (BOUNCES) write_impacts(here - 1u, contact_impact_of(after.impulse), EVERY_MEMBER);
-        write_slots(c, after.share, after.weight, BOUNCES ? after.passed_on : 0.0f);
+        write_slots(c, after.share, after.impact_weight, BOUNCES ? after.debt : 0.0f);
         v = after.velocity;
         uint next = next_of_block(c, came_from);
         came_from = here;
@@ -105,7 +105,7 @@ void relax_contact(uint place, uint pass) {
         if (BOUNCES && is_impact(impulse))
             around.debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), bodies.a,
                                         READ_FLOAT(impact_debts, c.b), READ(forces, c.b), bodies.b);
-        PassOutcome after = relax_pass(c, impulse, v, bodies, around, last, parameters_of(c.a));
+        RelaxOutcome after = relax_pass(c, impulse, v, bodies, around, last, parameters_of(c.a));
         if (SUMS) {
             float before = (pass & PASS_FIRST) != 0u ? 0.0f : uintBitsToFloat(WORD(carried, here - 1u));
             SET_FLOAT(carried, here - 1u, (pass & PASS_FIRST) != 0u ? after.borne : before + after.borne);
@@ -113,9 +113,9 @@ void relax_contact(uint place, uint pass) {
         keep_impulse(here - 1u, after.impulse);
         if (last) show_quiet_steps(c, bodies.moved);
         v = after.velocity;
-        weight = larger(weight, after.weight);
+        weight = larger(weight, after.counts);
         uint next = next_of_block(c, came_from);
-        write_slots(c, after.share, next == 0u ? weight : 0.0f, after.passed_on);  // the weight of the whole block
+        write_slots(c, after.share, next == 0u ? weight : 0.0f, after.normal_sum);  // the weight of the whole block
         came_from = here;
         here = next;
     }

@@ -274,7 +274,7 @@ void describe_block() {
 // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
 bool is_struck() {
     bool struck = false;
-    for (uint m = 0u; m < block_size && !struck; ++m) struck = forces.at[MEMBER(m).body].impacts != 0.0f;
+    for (uint m = 0u; m < block_size && !struck; ++m) struck = forces.at[MEMBER(m).body].impact_weight != 0.0f;
     return struck;
 }
 
