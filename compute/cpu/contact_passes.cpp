@@ -29,8 +29,7 @@ physics::Surface surface_on(const State& state, const physics::BodyProperties& r
     return surface == 0 ? physics::plain_surface(row) : state.surfaces[surface - 1];
 }
 
-void write_deltas(State& state, const physics::Constraint& c, const physics::VelocityPair& delta, float weight,
-                  float passed_on) {
+void write_deltas(State& state, const physics::Constraint& c, const physics::VelocityPair& delta, float weight, float passed_on) {
     if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(delta.a, weight, passed_on);
     if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(delta.b, weight, passed_on);
 }
@@ -223,7 +222,7 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
         const float debt = physics::part_of_debts(biased, state.impact_debts[c.a], state.forces[c.a], bodies.a,
                                                   state.impact_debts[c.b], state.forces[c.b], bodies.b);
         const physics::RelaxOutcome after = physics::relax_pass(c, biased, v, bodies, around_impact(state, c, debt),
-                                                               (pass & physics::PASS_LAST) != 0, parameters_of(state, c.a));
+                                                                (pass & physics::PASS_LAST) != 0, parameters_of(state, c.a));
         if ((pass & physics::PASS_SUMS) != 0)
             state.carried[i] = (pass & physics::PASS_FIRST) != 0 ? after.borne : state.carried[i] + after.borne;
         state.keep_impulse(i, after.impulse);

@@ -131,9 +131,9 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
         bool clamps[2];
         for (int side = 0; side < 2; ++side)
-            clamps[side] = physics::may_clamp(stops[side], state.bounds[bodies[side]].sweep.marks,
-                                              state.properties[bodies[side]], state.bounds[bodies[1 - side]].sweep.marks,
-                                              state.properties[bodies[1 - side]], state.point_counts[i]);
+            clamps[side] = physics::may_clamp(stops[side], state.bounds[bodies[side]].sweep.marks, state.properties[bodies[side]],
+                                              state.bounds[bodies[1 - side]].sweep.marks, state.properties[bodies[1 - side]],
+                                              state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
         const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
         const physics::Nearing near = physics::nearing_of(way(state, rows[0], stops[0]), way(state, rows[1], stops[1]),

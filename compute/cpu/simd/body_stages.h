@@ -119,8 +119,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter_member<Bounds>(tables.bounds, live.only(!sound), offsetof(Bounds, sweep.marks), UNSOUND);
             after = moved_soundly(sound, before, after);
         }
-        if (tables.sums_impacts)
-            scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impact_weight), sum.weight);
+        if (tables.sums_impacts) scatter_member<BodyForces>(tables.forces, live, offsetof(BodyForces, impact_weight), sum.weight);
         if (!none(sum.weight > 0.0f))
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
                 if (sum.weight.v[lane] > 0) tables.impact_debts[bodies.of[lane]] = sum.passed_on.v[lane];

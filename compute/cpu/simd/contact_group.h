@@ -113,8 +113,7 @@ struct Group {
                                             gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
                              no_impact_context());
     }
-    SCREE_INLINE void write_deltas(const WideTables& tables, const VelocityPair& share, Float weight,
-                                   Float passed_on) const {
+    SCREE_INLINE void write_deltas(const WideTables& tables, const VelocityPair& share, Float weight, Float passed_on) const {
         to_slots(tables, live, c, share, weight, passed_on);
     }
     // What the biased pass changes, and what both do: fields that stay are not written.
