@@ -99,7 +99,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     vec4 normal_before = impulse.normal;
     vec3 press = vec3(0.0f);
     uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), sweeps_of(c, speeds, a, b, parameters));
-    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
+    int sweep = 0;
+    do {
         for (int k = 0; k < 4; ++k) {
             bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
             if (none(there)) break;
@@ -119,7 +120,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             speeds = speeds + response * (after - before);
             press = press + press_at(c, after - before, k);
         }
-    }
+        ++sweep;
+    } while (!none(uint(sweep) < sweeps));
     SolveResult result = result_of(c, impulse, speeds, press);
     if (!none(strikes || is_impact(impulse)))
         result.impulse =
@@ -185,7 +187,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
     bool begins = biased > 0.0f && !(c.restitution > 0.0f);
     vec4 parting = vec4(0.0f);
     uint sweeps = sweeps_of(c, speeds, a, b, parameters);
-    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
+    int sweep = 0;
+    do {
         for (int k = 0; k < 4; ++k) {
             bool there = uint(sweep) < sweeps && uint(k) < point_count(c);
             if (none(there)) break;
@@ -205,7 +208,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved,
             press = press + press_at(c, after - before, k);
             parting[k] = choose(acts, choose(speed > PARTING * fall_speed(parameters), 1.0f, 0.0f), parting[k]);
         }
-    }
+        ++sweep;
+    } while (!none(uint(sweep) < sweeps));
     SolveResult result = result_of(c, impulse, speeds, press);
     result.pair_velocity = v;
     float normal = normal_impulse(impulse);

@@ -55,7 +55,8 @@ void solve_contact(uint place) {
     if (!BLOCKS) bodies.part = 1.0f;
     VelocityPair v = bodies.moved;
     uint came_from = 0u;
-    for (uint here = i + 1u; here != 0u;) {
+    uint here = i + 1u;
+    do {
         if (came_from != 0u) {
             c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
@@ -69,7 +70,7 @@ void solve_contact(uint place) {
         uint next = next_of_block(c, came_from);
         came_from = here;
         here = next;
-    }
+    } while (BLOCKS && here != 0u);
 }
 
 // Each body's quiet steps, for the other's sleep.
@@ -96,7 +97,8 @@ void relax_contact(uint place, uint pass) {
     VelocityPair v = bodies.moved;
     float weight = 0.0f;  // of the block in mass splitting, so far
     uint came_from = 0u;
-    for (uint here = i + 1u; here != 0u;) {
+    uint here = i + 1u;
+    do {
         if (came_from != 0u) {
             c = narrowed(READ_GROUPED(constraints, here - 1u));
             impulse = impulse_at(here - 1u);
@@ -118,7 +120,7 @@ void relax_contact(uint place, uint pass) {
         write_slots(c, after.share, next == 0u ? weight : 0.0f, after.normal_sum);  // the weight of the whole block
         came_from = here;
         here = next;
-    }
+    } while (BLOCKS && here != 0u);
 }
 
 #endif
