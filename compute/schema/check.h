@@ -74,6 +74,15 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     if constexpr (Number<Member>) {
         if (value != Owner{}.*field.member) check_number(value);
     } else if constexpr (std::is_same_v<Member, glm::vec2> || std::is_same_v<Member, glm::vec3>) {
+        if (field.by_length) {
+            double squared = 0;
+            for (int i = 0; i < Member::length(); ++i) squared += static_cast<double>(value[i]) * value[i];
+            const double length = std::sqrt(squared);
+            if (!(length <= field.range.high * (1 + 1e-6)))  // rounded where it was turned
+                refuse(at / field.key, "must be at most " + plain(field.range.high) + ' ' + std::string(unit) + " long, is " +
+                                           text_of(static_cast<float>(length)));
+            return;
+        }
         for (int i = 0; i < Member::length(); ++i)
             if (!field.range.holds(value[i]))
                 refuse(at / field.key / static_cast<std::size_t>(i), out_of_range(value[i], field.range, unit));

@@ -62,10 +62,16 @@ struct Field {
     const char* about = "";
     Presence presence = Presence::optional;
     Refers refers = Refers::to_nothing;
+    bool by_length = false;  // of a vector that validation turns: the range is that of its length, not of its components
 
     constexpr bool embedded() const { return *key == '\0'; }
     constexpr Field required() const { return with(Presence::required); }
     constexpr Field written() const { return with(Presence::written); }
+    constexpr Field of_length() const {
+        Field field = *this;
+        field.by_length = true;
+        return field;
+    }
     constexpr Field index_of(Refers what) const {
         Field field = *this;
         field.refers = what;

@@ -20,9 +20,11 @@ float quiet_in(uint slot) {
 float least_quiet_beside(uint body) {
     float quiet = FOREVER;
     uint k = first_slot_of(body), last = READ_WORD(slot_ends, body);
-    for (; k + LONG_LIST <= last; k += 4u)  // as in gather()
-        quiet = smaller(smaller(quiet_in(k), quiet_in(k + 1u)), smaller(smaller(quiet_in(k + 2u), quiet_in(k + 3u)), quiet));
-    for (; k < last; ++k) quiet = smaller(quiet, quiet_in(k));
+    if (k >= last) return quiet;
+    do {  // as in gather()
+        quiet = smaller(smaller(quiet_in(k), quiet_in(min(k + 1u, last - 1u))), quiet);
+        k += 2u;
+    } while (k < last);
     return quiet;
 }
 

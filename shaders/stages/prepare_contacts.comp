@@ -56,8 +56,8 @@ void main() {
     now.b = READ(velocities, of_b);
     BodyMass mass_a = READ(masses, of_a), mass_b = READ(masses, of_b);
     float of_block = 0.0f;
-    uint before = 0u, here = i + 1u;
-    for (uint place = 0u; here != 0u; ++place) {
+    uint before = 0u, here = i + 1u, place = 0u;
+    do {
         uint k = here - 1u;
         if (place != 0u) contact = READ(contacts, k);
         Constraint constraint = prepared(k, contact, of_a, of_b, now, own);
@@ -72,5 +72,6 @@ void main() {
         if (constraint.slot_b != NONE) slots.at[constraint.slot_b] = velocity_delta(share.change.b, weight, impulse.normal_sum);
         before = here;
         here = next;
-    }
+        ++place;
+    } while (BLOCKS && here != 0u);
 }

@@ -100,6 +100,19 @@ TEST_CASE("a compound is moved to its centre of mass and its own axes, every par
     REQUIRE(scene_to_json(twice) == scene_to_json(once));
 }
 
+TEST_CASE("a belt on a hull that is turned to its own axes runs at up to 1,000 m/s in any direction, also checked twice") {
+    Scene scene;
+    scene.bodies = {body_of(Hull{{{0.4f, 0.1f, 0}, {-0.3f, 0, 0.1f}, {0, 0.4f, 0.1f}, {0.1f, -0.4f, -0.1f}, {0, 0, 0.5f}}})};
+    for (const vec3 direction : {vec3(0, -1, 1), vec3(1, 0, 0), vec3(1, 1, -1), vec3(0.2f, 0.9f, 0.3f)}) {
+        scene.bodies[0].surface_velocity = glm::normalize(direction) * 1000.0f;
+        const Scene once = checked(scene), twice = checked(once);
+        REQUIRE(glm::length(once.bodies[0].surface_velocity) == Approx(1000));
+        REQUIRE(scene_to_json(twice) == scene_to_json(once));
+    }
+    scene.bodies[0].surface_velocity = {0, -1000, 1000};
+    REQUIRE_THROWS_WITH(checked(scene), "/bodies/0/surface_velocity: must be at most 1000 m/s long, is 1414.2136");
+}
+
 TEST_CASE("a box of two pieces flies, turns and lands as the whole one does") {
     Scene scene;
     scene.bodies = {body_of(Plane{}, {}, Motion::fixed), body_of(whole, {0, 3, 0}), body_of(two_pieces(), {5, 3, 0})};

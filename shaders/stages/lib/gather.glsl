@@ -2,8 +2,6 @@
 #ifndef SCREE_STAGES_GATHER_GLSL
 #define SCREE_STAGES_GATHER_GLSL
 
-const uint LONG_LIST = 32u;  // slots
-
 struct Gathered {
     Velocity change;
     float weight;
@@ -26,12 +24,14 @@ Gathered gather(uint body) {
     sum.weight = 0.0f;
     sum.passed_on = 0.0f;
     uint k = first_slot_of(body), last = READ_WORD(slot_ends, body);
-    // Four a round of a long list, which then waits less for memory; lavapipe silently ends a shader's loops after 65,535 rounds.
-    for (; k + LONG_LIST <= last; k += 4u) {
-        VelocityDelta one = READ(slots, k), two = READ(slots, k + 1u), three = READ(slots, k + 2u), four = READ(slots, k + 3u);
-        sum = added(added(added(added(sum, one), two), three), four);
-    }
-    for (; k < last; ++k) sum = added(sum, READ(slots, k));
+    if (k >= last) return sum;
+    // Two a round: lavapipe silently ends a shader's loops after 65,535 rounds, and a GPU waits less for memory.
+    do {
+        VelocityDelta one = READ(slots, k), two = READ(slots, min(k + 1u, last - 1u));
+        sum = added(sum, one);
+        if (k + 1u < last) sum = added(sum, two);
+        k += 2u;
+    } while (k < last);
     return sum;
 }
 
