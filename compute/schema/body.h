@@ -54,7 +54,8 @@ inline constexpr auto material_fields = std::tuple{
     field("restitution_threshold", &Owner::restitution_threshold, between(0, 1e4), "m/s",
           "Speed of impacts below which they have no restitution; a pair takes the larger; left out of both: the settings' own"),
     field("surface_velocity", &Owner::surface_velocity, within(1e3), "m/s",
-          "Velocity of the surface over the body, in the body's frame: a conveyor belt that does not move").of_length(),
+          "Velocity of the surface over the body, in the body's frame: a conveyor belt that does not move")
+        .of_length(),
     field("friction_rule", &Owner::friction_rule,
           "How friction follows from that of both; of two rules the later one counts: usual (geometric), geometric, average, "
           "minimum, multiply, maximum, overriding_minimum, overriding_average"),
