@@ -13,7 +13,8 @@ uint contact_before(uint owner, uint other) {
     uint id = id_of(other);
     uint low = READ_WORD(first_contacts, owner);
     uint high = READ_WORD(first_contacts, owner + 1u);
-    while (low < high) {
+    if (low >= high) return NONE;
+    do {
         uint middle = (low + high) >> 1;
         uint a = READ(contacts_before, middle).a;
         uint partner = a == owner ? READ(contacts_before, middle).b : a;
@@ -22,7 +23,7 @@ uint contact_before(uint owner, uint other) {
             low = middle + 1u;
         else
             high = middle;
-    }
+    } while (low < high);
     return NONE;
 }
 
@@ -33,8 +34,10 @@ void main() {
     uint place = READ_WORD(pair_starts, candidate.owner);
     uint last = READ_WORD(pair_starts, candidate.owner + 1u);
     uint own = id_of(candidate.owner), id = id_of(candidate.other);
-    for (uint k = place; k < last; ++k)
+    uint k = place;
+    do {
         if (id_of(READ(candidates, k).other) < id) ++place;
+    } while (++k < last);
     Pair pair = Pair(own < id ? candidate.owner : candidate.other, own < id ? candidate.other : candidate.owner, 0u, NONE);
     // The owner differs from last step's if a body's grid level changed.
     if (!is_newborn(body_of(pair.a))) {

@@ -33,7 +33,10 @@ void sort_bucket(uint bucket) {
         return;
     }
     sort_range(own.x, own.y);
-    for (uint k = own.x; k < own.x + own.y; ++k) copy_bounds(k);
+    if (own.y == 0u) return;
+    uint k = own.x;
+    do copy_bounds(k);
+    while (++k < own.x + own.y);
 }
 
 void main() {

@@ -1,3 +1,5 @@
+// Loops are tested at their bottom: lavapipe runs the body of others once more, in nested ones that is most of the work.
+//
 // Broadphase search: calls found(), which the stage defines, for the partners of the pairs that one body owns. Partners
 // are bodies with overlapping bounds; between inactive bodies, those of last step's contacts.
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
@@ -53,9 +55,11 @@ void meets(uint body, uint other) {
 
 void look_through_large(uint body, BodyProperties own, Bounds around) {
     uint own_bucket = PARAMETERS.buckets + (COPIES ? around.level >> COPY_SHIFT : 0u), last = READ_WORD(cell_ends, own_bucket);
-    for (uint k = READ_WORD(cell_ends, own_bucket - 1u); k < last; ++k) {
-        uint other = READ(cell_entries, k).body;
-        CellEntry entry = READ(cell_entries, k);
+    uint next = READ_WORD(cell_ends, own_bucket - 1u);
+    if (next >= last) return;
+    do {
+        CellEntry entry = READ(cell_entries, next++);
+        uint other = entry.body;
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         BodyProperties theirs = READ(properties, other);
@@ -66,7 +70,7 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
         else if (own.shape == SHAPE_PLANE)
             near = reaches_plane(entry.lower, entry.upper, own.size, READ(poses, body).position);
         if (near) meets(body, other);
-    }
+    } while (next < last);
 }
 
 // Cells along x are consecutive buckets, which may wrap round the end of the grid's entries.
@@ -78,8 +82,11 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
     uint first = low == 0u ? 0u : READ_WORD(cell_ends, low - 1u);
     uint id = id_of(body);
     uint entries = low <= high ? READ_WORD(cell_ends, high) - first : end - first + READ_WORD(cell_ends, high);
-    for (uint k = 0u; k < entries; ++k) {
-        uint place = first + k < end ? first + k : first + k - end;
+    if (entries == 0u) return;
+    uint next = 0u;
+    do {
+        uint place = first + next < end ? first + next : first + next - end;
+        ++next;
         CellEntry entry = READ(cell_entries, place);
         if ((entry.level & ~(INACTIVE | MOVES)) != key) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
@@ -89,7 +96,7 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
         if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(properties, entry.body).owner == own.owner)
             continue;
         if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
-    }
+    } while (next < entries);
 }
 
 // Partners of an inactive body that are inactive too: those of its contacts in the last step, if one of them is dynamic still.
@@ -122,13 +129,18 @@ void look_around(uint body) {
     BodyProperties own = READ(properties, body);
     look_through_large(body, own, around);
     if (is_large(own)) return;
-    for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {
-        if (((levels >> level) & 1u) == 0u) continue;
+    if (levels == 0u) return;
+    do {
+        uint level = uint(findLSB(levels));
+        levels &= levels - 1u;
         CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
-        for (int z = range.first.z; z <= range.last.z; ++z)
-            for (int y = range.first.y; y <= range.last.y; ++y)
-                look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
-    }
+        int z = range.first.z;
+        do {
+            int y = range.first.y;
+            do look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
+            while (++y <= range.last.y);
+        } while (++z <= range.last.z);
+    } while (levels != 0u);
 }
 
 #endif

@@ -71,7 +71,10 @@ void order_slots_of(uint body) {
         return;
     }
     sort_range(own.x, own.y);
-    for (uint k = own.x; k < own.x + own.y; ++k) assign_slot(k);
+    if (own.y == 0u) return;
+    uint k = own.x;
+    do assign_slot(k);
+    while (++k < own.x + own.y);
 }
 
 void order_long_slots() {
