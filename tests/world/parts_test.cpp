@@ -102,7 +102,7 @@ TEST_CASE("a compound is moved to its centre of mass and its own axes, every par
 
 TEST_CASE("a belt on a hull that is turned to its own axes runs at up to 1,000 m/s in any direction, also checked twice") {
     Scene scene;
-    scene.bodies = {body_of(Hull{{{0.4f, 0.1f, 0}, {-0.3f, 0, 0.1f}, {0, 0.4f, 0.1f}, {0.1f, -0.4f, -0.1f}, {0, 0, 0.5f}}})};
+    scene.bodies = {body_of(Hull{{{0.4f, 0.1f, 0}, {-0.3f, 0, 0.1f}, {0, 0.4f, 0.1f}, {0.1f, -0.4f, -0.1f}, {0, 0, 0.5f}}}, {})};
     for (const vec3 direction : {vec3(0, -1, 1), vec3(1, 0, 0), vec3(1, 1, -1), vec3(0.2f, 0.9f, 0.3f)}) {
         scene.bodies[0].surface_velocity = glm::normalize(direction) * 1000.0f;
         const Scene once = checked(scene), twice = checked(once);
