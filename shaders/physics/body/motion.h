@@ -204,7 +204,6 @@ CONSTANT float SLENDER = 1.0e4f;
 struct FreeTurn {
     vec4 orientation;
     vec3 spin_gain;  // change of the angular velocity in the body's axes, rad/s
-    float pad0;
 };
 // A torque-free body after h seconds. `p`: its angular momentum in its own axes, `momentum`: in the world's. Splitting of the
 // kinetic energy (McLachlan 1993; Reich 1994; Dullweber, Leimkuhler and McLachlan, J. Chem. Phys. 107, 1997). With the inverse
@@ -260,7 +259,6 @@ LAW FreeTurn tumbled(vec4 orientation, vec3 p, vec3 momentum, vec3 inverse_inert
     gain = vec3(choose(slender && k_is_x, gain_k, gain.x), choose(slender && k_is_y, gain_k, gain.y),
                 choose(slender && k_is_z, gain_k, gain.z));
     after.spin_gain = vec3(gain.x * i.x, gain.y * i.y, gain.z * i.z);
-    after.pad0 = 0.0f;
     return after;
 }
 

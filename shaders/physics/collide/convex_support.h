@@ -48,7 +48,6 @@ struct Corners {
     uvec4 list;  // their indices, from the second byte on; unused if `all`
     uint count;
     bool all;
-    uint pad0, pad1;
 };
 // A superset of the vertices that support a direction (body frame) or any within 1.8 degrees of it: a hull's cell lists
 // few, so an eighth of the vertices of two hulls of 32 is read.
@@ -57,8 +56,6 @@ LAW Corners corners_towards(ConvexShape solid, vec3 local, Hulls hulls) {
     corners.list = uvec4(0u);
     corners.count = solid.head.vertices;
     corners.all = true;
-    corners.pad0 = 0u;
-    corners.pad1 = 0u;
     if (solid.head.across > 0u) {
         corners.list = hull_record(hulls, hull_first_cell(solid.hull, solid.head) + 2u * cell_of(local, solid.head.across));
         uint listed = byte_of(corners.list, 0u);
@@ -172,7 +169,6 @@ struct Feature {
     uint face;
     uint stride;        // index step between corners
     uint first_corner;  // of a hull's face, index into the hull's list
-    uint pad0, pad1;
 };
 LAW Feature line_between(vec3 first, vec3 second) {
     Feature feature;
@@ -182,8 +178,6 @@ LAW Feature line_between(vec3 first, vec3 second) {
     feature.face = 0u;
     feature.stride = 1u;
     feature.first_corner = 0u;
-    feature.pad0 = 0u;
-    feature.pad1 = 0u;
     return feature;
 }
 LAW Feature point_at(vec3 point) {

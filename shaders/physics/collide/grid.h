@@ -123,17 +123,13 @@ LAW float power_of_two(int exponent) {
 // most.
 struct CellRange {
     ivec3 first;
-    int pad0;
     ivec3 last;
-    int pad1;
 };
 LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
     vec3 reach = vec3(0.5f * parameters.cell * power_of_two(int(level)));
     CellRange range;
     range.first = cell_at(lower - reach, level, parameters.inverse_cell);
     range.last = cell_at(upper + reach, level, parameters.inverse_cell);
-    range.pad0 = 0;
-    range.pad1 = 0;
     return range;
 }
 

@@ -18,7 +18,6 @@ struct Overlay {
     float slack;         // m
     vec4 inverse_runs;   // of 2 e.y, 2 e.z, 2 f.y, 2 f.z; 0 where the edge is parallel to that side
     float inverse_area;  // of e x f, 1/m^2; the parallelogram must not be seen edge on
-    float pad0, pad1, pad2;
 };
 
 LAW float inverse_of_run(float run) {
@@ -35,9 +34,6 @@ LAW Overlay overlay_of(vec3 centre, vec3 e, vec3 f, float half_y, float half_z, 
     overlay.inverse_runs =
         vec4(inverse_of_run(2.0f * e.y), inverse_of_run(2.0f * e.z), inverse_of_run(2.0f * f.y), inverse_of_run(2.0f * f.z));
     overlay.inverse_area = reciprocal(e.y * f.z - e.z * f.y);
-    overlay.pad0 = 0.0f;
-    overlay.pad1 = 0.0f;
-    overlay.pad2 = 0.0f;
     return overlay;
 }
 

@@ -20,17 +20,13 @@ LAW VelocityPair choose(bool condition, VelocityPair v, VelocityPair w) {
 
 struct LeverArms {
     vec3 a;
-    float pad0;
     vec3 b;
-    float pad1;
 };
 // From each centre of mass to the point; `d` = centre of B minus centre of A, m.
 LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
     LeverArms arms;
     arms.a = choose(is_on_b(c), arm + d, arm);
     arms.b = choose(is_on_b(c), arm, arm - d);
-    arms.pad0 = 0.0f;
-    arms.pad1 = 0.0f;
     return arms;
 }
 

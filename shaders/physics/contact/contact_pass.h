@@ -22,8 +22,6 @@ struct BiasedOutcome {
     VelocityPair share;     // change of the whole bodies' velocities
     float impact_weight;    // among the impacts of its bodies, N s
     float debt;             // impact_debt(), J
-    float pad0;
-    float pad1;
 };
 struct RelaxOutcome {
     Impulse impulse;        // with which the next substep begins
@@ -32,7 +30,6 @@ struct RelaxOutcome {
     float counts;           // 1 if it counts in the mass splitting of the next substep, else 0
     float normal_sum;       // of `impulse`, N s
     float borne;            // normal impulse of this pass, impacts included, N s
-    float pad0;
 };
 
 #ifndef SCREE_LANES  // lanes take single contacts, and read less
@@ -70,8 +67,6 @@ LAW BiasedOutcome biased_pass(Constraint c, Impulse impulse, VelocityPair v, Blo
     outcome.share = changes_after(c, after, after.impulse, false, bodies.a, bodies.b);
     outcome.impact_weight = after.impulse.impact_weight;
     outcome.debt = impact_debt(after.impulse);
-    outcome.pad0 = 0.0f;
-    outcome.pad1 = 0.0f;
     return outcome;
 }
 
@@ -89,7 +84,6 @@ LAW RelaxOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, Block
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
     outcome.counts = counts_next(c, impulse, outcome.impulse, after.speeds, bodies.a, bodies.b, parameters);
     outcome.normal_sum = outcome.impulse.normal_sum;
-    outcome.pad0 = 0.0f;
     return outcome;
 }
 

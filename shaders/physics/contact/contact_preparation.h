@@ -82,17 +82,11 @@ LAW Impulse settled_impact(Impulse impulse, Constraint c, Impulse was, Constrain
 struct ContactShare {
     VelocityPair change;
     float weight;
-    float pad0;
-    float pad1;
-    float pad2;
 };
 LAW ContactShare first_share(Constraint c, Impulse impulse, VelocityPair now, BodyMass a, BodyMass b, Parameters parameters) {
     ContactShare share;
     share.weight = is_active(c, impulse, now, parameters);
     share.change = warm_start(c, impulse, whole_mass(a), whole_mass(b));
-    share.pad0 = 0.0f;
-    share.pad1 = 0.0f;
-    share.pad2 = 0.0f;
     return share;
 }
 

@@ -113,7 +113,6 @@ struct Anchor {
     float rate;  // 1/s
     float leak;
     float give;  // leak / rate in the biased pass, s
-    float pad0;
 };
 LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
     // What touches in one or two points may roll, and a tyre has a compliance of its own.
@@ -122,7 +121,6 @@ LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
     anchor.rate = choose(anchored && biased, parameters.bias_rate, 0.0f);
     anchor.leak = choose(anchored && biased, parameters.impulse_scale, 0.0f);
     anchor.give = choose(anchored, parameters.impulse_scale * reciprocal(parameters.bias_rate), 0.0f);
-    anchor.pad0 = 0.0f;
     return anchor;
 }
 
@@ -153,7 +151,6 @@ struct FrictionBlock {
     float k12, unit;
     float slip1, slip2;  // m/s, scaled
     float turn1, turn2;  // change of the spin by an impulse of 1 along either tangent, scaled
-    float pad0, pad1;
 };
 LAW FrictionBlock friction_block(LeverArms r, vec3 normal, Mass a, Mass b) {
     FrictionBlock k;
@@ -177,8 +174,6 @@ LAW FrictionBlock friction_block(LeverArms r, vec3 normal, Mass a, Mass b) {
     k.k12 = k.k12 * k.unit;
     k.turn1 = k.turn1 * k.unit;
     k.turn2 = k.turn2 * k.unit;
-    k.pad0 = 0.0f;
-    k.pad1 = 0.0f;
     return k;
 }
 // Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.

@@ -67,7 +67,6 @@ struct JoinedPush {
     float energy;    // that is left to return, J
     float progress;  // J, >= 0
     float response;  // change of speed by an impulse of 1, 1/kg
-    float pad0;
 };
 LAW JoinedPush joined_push(float pushed, float from, float to, float energy, float e2) {
     JoinedPush push;
@@ -79,7 +78,6 @@ LAW JoinedPush joined_push(float pushed, float from, float to, float energy, flo
     push.energy = flush_least((energy + e2 * compression) - expansion);
     push.progress = 0.5f * (pushed * positive(gained));
     push.response = choose(gained > 0.0f, gained * reciprocal(larger(pushed, 1.0e-18f)), 1.0e30f);
-    push.pad0 = 0.0f;
     return push;
 }
 // On how much more than the mass of the struck bodies the next push may act.

@@ -47,15 +47,11 @@ struct JointConfiguration {
     vec3 angular_a;  // from A's centre to its anchor, m
     float turned;    // the twist with its whole turns, rad
     vec3 angular_b;
-    float pad1;
     vec3 gap;  // from A's anchor to B's, m
-    float pad2;
     vec3 twist_axis;
     float swing;  // the whole swing, rad
     vec3 swing_axis;
-    float pad3;
     vec3 x_b;  // B's own x axis
-    float pad4;
 };
 
 LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, vec4 frame_b, Pose b) {
@@ -92,10 +88,6 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     at.x_b = x_b;
     at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
     at.turned = at.twist;
-    at.pad1 = 0.0f;
-    at.pad2 = 0.0f;
-    at.pad3 = 0.0f;
-    at.pad4 = 0.0f;
     return at;
 }
 

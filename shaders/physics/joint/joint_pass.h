@@ -33,8 +33,6 @@ struct RowAfter {
     JointRow row;
     uint active_flags;
     float rotor_change;
-    uint pad0;
-    uint pad1;
 };
 // The impulse changes of a row and its rotor after a solution, within their bounds, and the active set of the next round.
 // `solution`: of the row and its rotor together; what the row's bounds cut off is the rotor's. `speed`: of the row afterwards.
@@ -52,8 +50,6 @@ LAW RowAfter row_after_round(JointAxis axis, JointRow row, JointRotor rotor, uin
     }
     after.row = row_after(row, axis, active_flags, solved, solution, parameters);
     after.active_flags = active_set_after(axis, row, index, active_flags, solved, solution, speed, biased, settling, parameters);
-    after.pad0 = 0u;
-    after.pad1 = 0u;
     return after;
 }
 
