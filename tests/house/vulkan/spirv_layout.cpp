@@ -6,11 +6,26 @@
 #include <utility>
 
 #include "host/spirv/spirv.h"
-#include "tests/house/vulkan/spirv_opcodes.h"
 
 namespace scree::house {
 
 namespace {
+
+enum Opcode : std::uint16_t {
+    op_name = 5,
+    op_member_name = 6,
+    op_type_int = 21,
+    op_type_float = 22,
+    op_type_vector = 23,
+    op_type_array = 28,
+    op_type_runtime_array = 29,
+    op_type_struct = 30,
+    op_type_pointer = 32,
+    op_variable = 59,
+    op_decorate = 71,
+    op_member_decorate = 72,
+};
+enum Decoration : std::uint32_t { block = 2, array_stride = 6, binding = 33, offset = 35 };
 
 using Key = std::pair<std::uint32_t, std::uint32_t>;  // type id and member index
 
