@@ -62,12 +62,8 @@ void read_field(const json& object, const Place& place, const schema::Field<Stru
     if constexpr (schema::HasTable<Member>) {
         if (field.embedded()) return read_fields(object, place, member, named);
     }
-    const auto found = object.find(field.key);
-    if (found == object.end()) {
-        if (field.presence != schema::Presence::required) return;
-        refuse(place, schema::is_list<Member> ? std::string("needs \"") + field.key + "\", an array"
-                                              : std::string("lacks \"") + field.key + "\"");
-    }
+    const json* found = value_of(object, place, field.key, field.presence == schema::Presence::required, schema::is_list<Member>);
+    if (!found) return;
     if constexpr (std::is_same_v<Member, std::size_t>) {
         if (field.refers != schema::Refers::to_nothing) {
             const bool or_world = field.presence != schema::Presence::required;

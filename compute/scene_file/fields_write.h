@@ -52,7 +52,7 @@ void write_fields(Text& text, const Struct& from, const char*& between) {
             if (field.embedded()) return write_fields(text, member, between);
         }
         if (field.presence == schema::Presence::optional && is_default(member, by_default.*field.member)) return;
-        text << between << "\"" << field.key << "\": ";
+        text.key(between, field.key);
         write_value(text, member);
         between = ", ";
     });

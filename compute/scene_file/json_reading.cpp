@@ -130,6 +130,12 @@ void only(const json& object, const Place& place, const Names& known) {
     }
 }
 
+const json* value_of(const json& object, const Place& place, const char* key, bool required, bool is_list) {
+    if (const auto found = object.find(key); found != object.end()) return &*found;
+    if (required) refuse(place, is_list ? std::string("needs \"") + key + "\", an array" : std::string("lacks \"") + key + "\"");
+    return nullptr;
+}
+
 void refuse_syntax(std::string_view text, const json::parse_error& error) {
     std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
     std::size_t word = at;

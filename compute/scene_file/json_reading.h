@@ -34,6 +34,8 @@ struct Place {
 // All of these throw SceneError with the value's JSON pointer.
 [[noreturn]] void refuse(const Place& place, const std::string& reason);
 void only(const json& object, const Place& place, const Names& known);  // requires an object without other keys
+// The value of a key; null where one that may be missing is.
+const json* value_of(const json& object, const Place& place, const char* key, bool required, bool is_list);
 void read(const json& value, const Place& place, bool& out);
 void read(const json& value, const Place& place, float& out);  // finite
 void read(const json& value, const Place& place, std::string& out);

@@ -27,4 +27,8 @@ void Text::quoted(std::string_view words) {
     text_ += json(words).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+void Text::key(std::string_view before, std::string_view key) {
+    *this << before << "\"" << key << "\": ";
+}
+
 }  // namespace scree

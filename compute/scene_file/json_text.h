@@ -26,6 +26,7 @@ public:
         return *this << "]";
     }
     void quoted(std::string_view words);
+    void key(std::string_view before, std::string_view key);  // as it is: before"key":
     template <class Value>
     void list(const std::vector<Value>& values) {
         *this << "[";

@@ -56,8 +56,56 @@ ordered_json number_within(const Range& range) {
     limit(made, range);
     return made;
 }
-ordered_json array_of(const ordered_json& items, glm::length_t size) {
+ordered_json vector_within(const Range& range, glm::length_t size) {
+    const ordered_json items = number_within(range);
+    if (size == 3 && items.contains("$ref")) return reference("vector");
     return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
+}
+ordered_json integer_within(const Range& range, Refers refers) {
+    ordered_json made = {{"type", "integer"}};
+    if (refers != Refers::to_nothing) made["type"] = {"integer", "string"};
+    made["minimum"] = 0;
+    limit(made, range);
+    return made;
+}
+ordered_json list_of(const ordered_json& items, const Range& range) {
+    ordered_json made = {{"type", "array"}, {"items", items}};
+    if (range.low > 0) made["minItems"] = number(range.low);
+    if (range.high < largest) made["maxItems"] = number(range.high);
+    return made;
+}
+ordered_json object_of(const char* about, const ordered_json& required, const ordered_json& properties,
+                       const ordered_json& conditions) {
+    ordered_json made = {{"description", about}, {"type", "object"}};
+    if (!required.empty()) made["required"] = required;
+    made["additionalProperties"] = false;
+    made["properties"] = properties;
+    made.merge_patch(conditions);
+    return made;
+}
+ordered_json one_of(const ordered_json& properties) {
+    return {{"type", "object"},
+            {"minProperties", 1},
+            {"maxProperties", 1},
+            {"additionalProperties", false},
+            {"properties", properties}};
+}
+
+// A field whatever its type, which the compiler takes once. `usual`: its default; null: none.
+struct Entry {
+    const char* key;
+    const char* unit;
+    const char* about;
+    bool required;
+    ordered_json schema, usual;
+};
+void add_entry(Entry entry, ordered_json& required, ordered_json& properties) {
+    ordered_json& made = properties[entry.key] = std::move(entry.schema);
+    if (!entry.usual.is_null() && !entry.required) made["default"] = std::move(entry.usual);
+    std::string about = entry.about;
+    if (*entry.unit) about += " (" + std::string(entry.unit) + ")";
+    if (!about.empty()) made["description"] = about;
+    if (entry.required) required.push_back(entry.key);
 }
 
 // Conditions on an object beyond its fields; null removes a key.
@@ -80,12 +128,7 @@ public:
     ordered_json object(const char* about) {
         ordered_json required = ordered_json::array(), properties = ordered_json::object();
         add_fields<Struct>(required, properties);
-        ordered_json made = {{"description", about}, {"type", "object"}};
-        if (!required.empty()) made["required"] = required;
-        made["additionalProperties"] = false;
-        made["properties"] = properties;
-        made.merge_patch(conditions<Struct>());
-        return made;
+        return object_of(about, required, properties, conditions<Struct>());
     }
     void define(const std::string& name, ordered_json schema) { defs_[name] = std::move(schema); }
     const ordered_json& defs() const { return defs_; }
@@ -110,11 +153,7 @@ private:
             ((properties[kinds.keys[i]] = defined<std::variant_alternative_t<i, Variant>>()), ...);
         }
         (std::make_index_sequence<std::variant_size_v<Variant>>());
-        define(kinds.name, {{"type", "object"},
-                            {"minProperties", 1},
-                            {"maxProperties", 1},
-                            {"additionalProperties", false},
-                            {"properties", properties}});
+        define(kinds.name, one_of(properties));
         return reference(kinds.name);
     }
 
@@ -125,43 +164,36 @@ private:
             if constexpr (HasTable<Member>) {
                 if (field.embedded()) return add_fields<Member>(required, properties);
             }
-            ordered_json made = type_of<Member>(field.range, field.refers);
+            constexpr bool has_unit = !is_list<Member> && !is_optional<Member> && !HasTable<Member>;
+            Entry entry{field.key,
+                        has_unit ? field.unit : "",
+                        field.about,
+                        field.presence == schema::Presence::required,
+                        type_of<Member>(field.range, field.refers),
+                        nullptr};
+            const Member& usual = by_default.*field.member;
             if constexpr (Number<Member>) {
-                if (field.refers == Refers::to_nothing && field.range.holds(by_default.*field.member))
-                    add_default(made, field, number(by_default.*field.member));
+                if (field.refers == Refers::to_nothing && field.range.holds(usual)) entry.usual = number(usual);
             } else if constexpr (requires { Member::length(); }) {
-                add_default(made, field, number(by_default.*field.member));
+                entry.usual = number(usual);
             } else if constexpr (HasWords<Member>) {
-                add_default(made, field, words<Member>[static_cast<std::size_t>(by_default.*field.member)]);
+                entry.usual = words<Member>[static_cast<std::size_t>(usual)];
             } else if constexpr (std::is_same_v<Member, bool> || std::is_same_v<Member, std::string>) {
-                add_default(made, field, by_default.*field.member);
+                entry.usual = usual;
             }
-            std::string about = field.about;
-            if (*field.unit && !is_list<Member> && !is_optional<Member> && !HasTable<Member>)
-                about += " (" + std::string(field.unit) + ")";
-            if (!about.empty()) made["description"] = about;
-            if (field.presence == schema::Presence::required) required.push_back(field.key);
-            properties[field.key] = std::move(made);
+            add_entry(std::move(entry), required, properties);
         });
         if constexpr (std::is_same_v<Struct, Joint>) {
             ordered_json optional = ordered_json::array();
             add_fields<JointPlacement>(optional, properties);
         }
     }
-    template <class Struct, class Member>
-    static void add_default(ordered_json& made, const Field<Struct, Member>& field, const ordered_json& value) {
-        if (field.presence != schema::Presence::required) made["default"] = value;
-    }
-
     template <class Member>
     ordered_json type_of(const Range& range, Refers refers) {
         if constexpr (is_optional<Member>) {
             return type_of<typename Member::value_type>(range, refers);
         } else if constexpr (is_list<Member>) {
-            ordered_json made = {{"type", "array"}, {"items", type_of<typename Member::value_type>({}, Refers::to_nothing)}};
-            if (range.low > 0) made["minItems"] = number(range.low);
-            if (range.high < largest) made["maxItems"] = number(range.high);
-            return made;
+            return list_of(type_of<typename Member::value_type>({}, Refers::to_nothing), range);
         } else if constexpr (HasTable<Member>) {
             return defined<Member>();
         } else if constexpr (HasAlternatives<Member>) {
@@ -171,8 +203,7 @@ private:
         } else if constexpr (std::is_same_v<Member, float>) {
             return number_within(range);
         } else if constexpr (requires { Member::length(); }) {
-            const ordered_json items = number_within(range);
-            return Member::length() == 3 && items.contains("$ref") ? reference("vector") : array_of(items, Member::length());
+            return vector_within(range, Member::length());
         } else if constexpr (std::is_same_v<Member, bool>) {
             return {{"type", "boolean"}};
         } else if constexpr (std::is_same_v<Member, std::string>) {
@@ -180,11 +211,7 @@ private:
         } else if constexpr (std::is_same_v<Member, Shape>) {
             return reference("shape");
         } else {
-            ordered_json made = {{"type", "integer"}};
-            if (refers != Refers::to_nothing) made["type"] = {"integer", "string"};
-            made["minimum"] = 0;
-            limit(made, range);
-            return made;
+            return integer_within(range, refers);
         }
     }
 
@@ -226,7 +253,7 @@ void print(std::string& text, const ordered_json& value, std::size_t indent) {
 std::string scene_schema() {
     Schema schema;
     schema.define("number", {{"type", "number"}, {"minimum", -3.4e38}, {"maximum", 3.4e38}});
-    schema.define("vector", array_of(reference("number"), 3));
+    schema.define("vector", {{"type", "array"}, {"items", reference("number")}, {"minItems", 3}, {"maxItems", 3}});
     schema.define("size", {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}, {"description", "m"}});
     schema.define("shape", shape_schema());
     schema.define("material", schema.object<Material>(table<Material>.about));

@@ -17,23 +17,31 @@ ordered_json number_schema(FieldRange range) {
     return {{"type", "number"}, {"minimum", std::stod(plain(range.least))}, {"maximum", std::stod(plain(range.most))}};
 }
 
-template <class Owner>
-ordered_json field_schema(const ShapeField<Owner, float>& field) {
-    ordered_json schema = number_schema(field.range);
-    if (!field.required) schema["default"] = Owner{}.*field.member;
-    schema["description"] = field.about;
-    return schema;
+ordered_json vector_schema(FieldRange range, bool is_direction) {
+    if (is_direction) return {{"$ref", "#/$defs/vector"}};
+    return {{"type", "array"}, {"items", number_schema(range)}, {"minItems", 3}, {"maxItems", 3}};
 }
 
 template <class Owner>
-ordered_json field_schema(const ShapeField<Owner, vec3>& field) {
-    ordered_json schema = {{"$ref", "#/$defs/vector"}};
-    if (!field.is_direction())
-        schema = {{"type", "array"}, {"items", number_schema(field.range)}, {"minItems", 3}, {"maxItems", 3}};
+ordered_json type_and_default(const ShapeField<Owner, float>& field) {
+    ordered_json schema = number_schema(field.range);
+    if (!field.required) schema["default"] = Owner{}.*field.member;
+    return schema;
+}
+template <class Owner>
+ordered_json type_and_default(const ShapeField<Owner, vec3>& field) {
+    ordered_json schema = vector_schema(field.range, field.is_direction());
     const vec3 usual = Owner{}.*field.member;
     if (!field.required) schema["default"] = {usual.x, usual.y, usual.z};
-    schema["description"] = field.about;
     return schema;
+}
+
+ordered_json plain_schema(const char* name, const char* about, const ordered_json& required, const ordered_json& properties) {
+    ordered_json fields = {{"type", "object"}};
+    if (!required.empty()) fields["required"] = required;
+    fields["additionalProperties"] = false;
+    fields["properties"] = properties;
+    return {{"required", {name}}, {"additionalProperties", false}, {"description", about}, {"properties", {{name, fields}}}};
 }
 
 // Shapes with lists, whose schema is more than ranges.
@@ -43,19 +51,13 @@ constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfSha
 
 template <class OfShape>
 ordered_json plain_schema() {
-    ordered_json fields = {{"type", "object"}}, required = ordered_json::array(), properties = ordered_json::object();
+    ordered_json required = ordered_json::array(), properties = ordered_json::object();
     for_each_shape_field<OfShape>([&](const auto& field) {
         if (field.required) required.push_back(field.name);
-        properties[field.name] = field_schema(field);
+        ordered_json& schema = properties[field.name] = type_and_default(field);
+        schema["description"] = field.about;
     });
-    if (!required.empty()) fields["required"] = required;
-    fields["additionalProperties"] = false;
-    fields["properties"] = properties;
-    const char* name = ShapeInfo<OfShape>::name;
-    return {{"required", {name}},
-            {"additionalProperties", false},
-            {"description", ShapeInfo<OfShape>::about},
-            {"properties", {{name, fields}}}};
+    return plain_schema(ShapeInfo<OfShape>::name, ShapeInfo<OfShape>::about, required, properties);
 }
 
 ordered_json schemas_with_lists() {

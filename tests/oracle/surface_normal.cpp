@@ -122,7 +122,7 @@ vec3 normal_of_part(const Compound& compound, vec3 position, vec4 orientation, c
         const SimpleShape& shape = part.shape;
         const vec3 at = position + physics::rotate(orientation, part.position);
         const vec4 turned = physics::compose(orientation, part.orientation);
-        const std::optional<float> distance = ray_distance(shape, at, turned, ray.from, ray.along);
+        const std::optional<float> distance = oracle::ray_distance(shape, at, turned, ray.from, ray.along);
         if (!distance || *distance >= nearest) continue;
         nearest = *distance;
         found = surface_normal(shape, at, turned, ray, point);

@@ -224,7 +224,7 @@ TEST_CASE("a capsule that overlaps a capsule or a box is as deep as Bullet or th
             if (judge.separation > -0.8f * radii) {
                 shallow.count(touch, judge.separation, judge.normal);
             } else if (second == SHAPE_BOX) {
-                const Separation truth = separation_by_axes(core(m.a), m.pose_a, m.b, m.pose_b);
+                const scree::tests::Separation truth = separation_by_axes(core(m.a), m.pose_a, m.b, m.pose_b);
                 if (truth.greatest > -1e-3) continue;
                 ++sunk;
                 const double excess = deepest_of(touch) - (truth.greatest - radii);
@@ -252,7 +252,7 @@ TEST_CASE("boxes that overlap are as deep as the separating axes say, to within 
     for (int k = 0; k < 10000; ++k) {
         const float depth = k % 2 == 0 ? chance.between(0.001f, 0.05f) : chance.between(0.05f, 1.0f);
         if (!meet(chance, {scree::physics::SHAPE_BOX, scree::physics::SHAPE_BOX, ""}, -depth, m)) continue;
-        const Separation truth = separation_by_axes(m.a, m.pose_a, m.b, m.pose_b);
+        const scree::tests::Separation truth = separation_by_axes(m.a, m.pose_a, m.b, m.pose_b);
         if (truth.greatest > 0) continue;
         ++cases;
         const ManifoldBuffer touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);

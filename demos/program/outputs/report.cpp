@@ -13,7 +13,6 @@
 
 #include "compute/parallel/threads.h"
 #include "compute/schema/settings.h"
-#include "demos/program/commit.h"
 #include "demos/program/outputs/table.h"
 #include "demos/program/progress.h"
 #include "host/processor.h"
@@ -36,9 +35,6 @@ std::size_t peak_memory() {
 
 std::string program_version() {
     return SCREE_VERSION;
-}
-std::string program_commit() {
-    return SCREE_COMMIT;
 }
 std::string program_compiler() {
 #if defined(__clang__)

@@ -14,6 +14,7 @@
 #include "tests/temporary_folder.h"
 
 using namespace scree::host;
+using namespace scree::tests;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "tests/host/vulkan/compiled.h"
 
 using namespace scree::host;
+using namespace scree::tests;
 
 namespace {
 
