@@ -16,20 +16,15 @@ namespace {
 // A workgroup sorts the lists of its threads one after the other (shaders/stages/lib/sort.glsl); besides, a thread takes one
 // round an item of a list.
 constexpr std::uint32_t most_rounds_of_a_list = 60000;
-constexpr std::uint32_t short_range = 32, tile = 1024, compared_a_round = 4;  // sort.glsl
+constexpr std::uint32_t short_range = 32, compared_a_round = 4;  // sort.glsl
 
 // Rounds of a thread in which its workgroup sorts a list.
 std::uint64_t sorting_rounds(std::uint64_t items, std::uint32_t group_size) {
     if (items <= short_range) return 0;
-    const std::uint64_t at_once = std::uint64_t{compared_a_round} * group_size;
-    const auto shared = [&](std::uint64_t work) { return work / at_once + 1; };
-    constexpr std::uint64_t levels_of_a_tile = 10;
-    const std::uint64_t tiles = items / tile + 1, transfers = 2 * shared(tile), step = shared(tile / 2) + 1;
-    std::uint64_t rounds = tiles * (levels_of_a_tile * (levels_of_a_tile + 1) / 2 * step + levels_of_a_tile + transfers + 1);
-    std::uint64_t level = 1;
-    for (std::uint64_t reach = tile; reach < items; reach *= 2, ++level)
-        rounds += level * (shared((items + 2 * reach) / 2) + 1) + tiles * (levels_of_a_tile * step + transfers + 1);
-    return rounds + shared(items);
+    const auto shared = [&](std::uint64_t work) { return work / (std::uint64_t{compared_a_round} * group_size) + 1; };
+    std::uint64_t rounds = shared(items), steps = 1;
+    for (std::uint64_t reach = 1; reach < items; reach *= 2, ++steps) rounds += steps * (shared((items + 2 * reach) / 2) + 1);
+    return rounds;
 }
 
 struct SortedList {

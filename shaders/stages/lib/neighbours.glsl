@@ -1,6 +1,6 @@
 // Broadphase search: calls found(), which the stage defines, for the partners of the pairs that one body owns. Partners
-// are bodies with overlapping bounds; between inactive bodies, those of last step's contacts. Loops are tested at their foot, since
-// lavapipe runs others once more: of nested ones that is most of the work.
+// are bodies with overlapping bounds; between inactive bodies, those of last step's contacts. Loops are tested at their
+// foot, since lavapipe runs others once more: of nested ones that is most of the work.
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
