@@ -234,7 +234,8 @@ TEST_CASE("scene files keep materials, and refuse bad ones by their place") {
     const std::string ball = R"("shape": {"sphere": {"radius": 1}}, )";
     CHECK_THAT(refused(ball + R"("friction_rule": "least")"), Contains("/bodies/0/friction_rule"));
     CHECK_THAT(refused(ball + R"("static_friction": -2)"), Contains("/bodies/0/static_friction: must be between 0 and 100"));
-    CHECK_THAT(refused(ball + R"("surface_velocity": [2000, 0, 0])"), Contains("/bodies/0/surface_velocity: must be at most 1000 m/s long"));
+    CHECK_THAT(refused(ball + R"("surface_velocity": [2000, 0, 0])"),
+               Contains("/bodies/0/surface_velocity: must be at most 1000 m/s long"));
     CHECK_THAT(
         refused(R"("shape": {"compound": {"parts": [{"shape": {"sphere": {"radius": 1}}, "material": {"friction": -1}}]}})"),
         Contains("/bodies/0/shape/compound/parts/0/material/friction"));
