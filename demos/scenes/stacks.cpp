@@ -180,7 +180,7 @@ DemoScene pyramid(const DemoOptions& options) {
 }
 
 DemoScene pyramid100(const DemoOptions& options) {
-    return pyramid_of(100, options.seed, Promise(drift_below(0.27), end_speed_below(0.0009), sway_below(0.0005)));
+    return pyramid_of(100, options.seed, Promise(drift_below(0.27), end_speed_below(0.0025), sway_below(0.0005)));
 }
 
 }  // namespace scree::demos
