@@ -21,22 +21,25 @@ constexpr std::uint32_t short_range = 32, compared_a_round = 4;  // sort.glsl
 // Rounds of a thread in which its workgroup sorts a list.
 std::uint64_t sorting_rounds(std::uint64_t items, std::uint32_t group_size) {
     if (items <= short_range) return 0;
-    const auto shared = [&](std::uint64_t work) { return work / (std::uint64_t{compared_a_round} * group_size) + 1; };
+    const auto shared = [&](std::uint64_t work) { return work / (std::uint64_t{compared_a_round} * group_size) + 2; };
     std::uint64_t rounds = shared(items), steps = 1;
     for (std::uint64_t reach = 1; reach < items; reach *= 2, ++steps) rounds += steps * (shared((items + 2 * reach) / 2) + 1);
     return rounds;
 }
 
 struct SortedList {
-    const char* stage;  // that sorts it
-    Table ends;         // of all such lists
+    const char* stage;     // that sorts it
+    Table ends;            // of all such lists
+    std::uint32_t visits;  // rounds of a vector of threads for each item of a list: its bodies meet a cell in any of nine rows
     const char *owner, *items;
+
+    std::uint64_t rounds(std::uint64_t length) const { return visits * length; }
 };
-constexpr std::array<SortedList, 2> sorted_lists{{{"sort_cells", Table::cell_ends, "a cell of the broadphase", "bodies"},
-                                                  {"sort_slots", Table::slot_ends, "a body", "contacts and joints"}}};
+constexpr std::array<SortedList, 2> sorted_lists{{{"sort_cells", Table::cell_ends, 9, "a cell of the broadphase", "bodies"},
+                                                  {"sort_slots", Table::slot_ends, 1, "a body", "contacts and joints"}}};
 
 // The length of a list, if one is too long alone or with those that its workgroup sorts too; else 0.
-std::uint32_t too_long(std::span<const std::uint32_t> ends, std::uint32_t group_size) {
+std::uint32_t too_long(const SortedList& list, std::span<const std::uint32_t> ends, std::uint32_t group_size) {
     std::uint32_t longest = 0, begin = 0;
     std::uint64_t rounds = 0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -45,7 +48,7 @@ std::uint32_t too_long(std::span<const std::uint32_t> ends, std::uint32_t group_
         begin = ends[i];
         longest = std::max(longest, length);
         rounds += sorting_rounds(length, group_size);
-        if (std::max<std::uint64_t>(rounds, longest) > most_rounds_of_a_list) return longest;
+        if (std::max(rounds, list.rounds(longest)) > most_rounds_of_a_list) return longest;
     }
     return 0;
 }
@@ -60,8 +63,9 @@ void DeviceRunner::copy_list_ends(host::CommandBuffer& commands, const Stage& st
         if (stage.name != sorted_lists[i].stage) continue;
         host::Buffer& back = list_ends_[parity_][i];
         // All items in one list, or short lists of one workgroup, are what takes most.
-        const bool may_be_long = device_->report().is_processor && std::max<std::uint64_t>(sorting_rounds(items[i], p.group_size),
-                                                                                           items[i]) > most_rounds_of_a_list;
+        const bool may_be_long =
+            device_->report().is_processor &&
+            std::max(sorting_rounds(items[i], p.group_size), sorted_lists[i].rounds(items[i])) > most_rounds_of_a_list;
         if (!may_be_long) back = {};
         if (!may_be_long) continue;
         const std::size_t bytes = lists[i] * sizeof(std::uint32_t);
@@ -78,10 +82,10 @@ void DeviceRunner::require_short_lists(std::size_t parity) const {
         if (!back) continue;
         std::vector<std::uint32_t> ends(back.bytes() / sizeof(std::uint32_t));
         std::memcpy(ends.data(), back.mapped(), back.bytes());
-        if (const std::uint32_t longest = too_long(ends, state_->fixed().group_size))
+        if (const std::uint32_t longest = too_long(sorted_lists[i], ends, state_->fixed().group_size))
             throw host::DeviceError(std::string(sorted_lists[i].owner) + " has " + std::to_string(longest) + " " +
                                     sorted_lists[i].items + ", more than a software device such as " + device_->report().name +
-                                    " can sort: simulate with --backend cpu");
+                                    " can search and sort: simulate with --backend cpu");
     }
 }
 

@@ -216,6 +216,34 @@ TEST_CASE("a cell with thousands of bodies has the same bits on both processors"
     CHECK(there.state_hash() == here.state_hash());
 }
 
+// A ring of balls, each of which meets the crowded cell in another row of cells.
+TEST_CASE("a cell that threads meet in different rows has the same bits on both processors, or is refused by name",
+          "[process:stages]") {
+    const Watched watched;
+    for (const std::size_t crowd : {6500u, 12000u}) {
+        Scene scene;
+        scene.gravity = vec3(0);
+        scene.bodies.resize(64 + crowd);
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            Body& ball = scene.bodies[i];
+            ball.shape = Sphere{0.5f};
+            ball.position = {0.5f, 0.5f, 0.5f};
+            if (i >= 64) ball.motion = Motion::fixed;
+            const float turn = 0.7f * static_cast<float>(i);
+            if (i < 64) ball.position += 1.25f * vec3(0, std::cos(turn), std::sin(turn));
+            if (i < 64) ball.velocity = {0, -0.1f, 0.1f};
+        }
+        World here(scene, {}, 2), there(scene, {}, std::make_unique<DeviceRunner>(watched.device));
+        if (crowd > 6600 && watched.device->report().is_processor) {
+            CHECK_THROWS_WITH(there.step(), Catch::Contains("a cell of the broadphase has 12000 bodies"));
+            continue;
+        }
+        here.step();
+        there.step();
+        CHECK(there.state_hash() == here.state_hash());
+    }
+}
+
 TEST_CASE("both processors stop fast bodies alike", "[process:stages]") {
     const Watched watched;
     for (const float faster : {10.0f, 60.0f}) {
