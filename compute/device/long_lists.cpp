@@ -28,17 +28,19 @@ std::uint64_t sorting_rounds(std::uint64_t items, std::uint32_t group_size) {
 }
 
 struct SortedList {
-    const char* stage;     // that sorts it
-    Table ends;            // of all such lists
-    std::uint32_t visits;  // rounds of a vector of threads for each item of a list: its bodies meet a cell in any of nine rows
+    const char* stage;  // that sorts it
+    Table ends;         // of all such lists
+    // A body looks through nine rows of three neighbouring lists, and the bodies of a vector of threads through others.
+    std::uint32_t rows, neighbours;
     const char *owner, *items;
 
-    std::uint64_t rounds(std::uint64_t length) const { return visits * length; }
+    std::uint64_t rounds(std::uint64_t length) const { return rows * length; }
 };
-constexpr std::array<SortedList, 2> sorted_lists{{{"sort_cells", Table::cell_ends, 9, "a cell of the broadphase", "bodies"},
-                                                  {"sort_slots", Table::slot_ends, 1, "a body", "contacts and joints"}}};
+constexpr std::array<SortedList, 2> sorted_lists{
+    {{"sort_cells", Table::cell_ends, 9, 3, "a row of cells of the broadphase", "bodies"},
+     {"sort_slots", Table::slot_ends, 1, 1, "a body", "contacts and joints"}}};
 
-// The length of a list, if one is too long alone or with those that its workgroup sorts too; else 0.
+// The length of a list with its neighbours, if it is too long alone or with those that its workgroup sorts too; else 0.
 std::uint32_t too_long(const SortedList& list, std::span<const std::uint32_t> ends, std::uint32_t group_size) {
     std::uint32_t longest = 0, begin = 0;
     std::uint64_t rounds = 0;
@@ -46,7 +48,7 @@ std::uint32_t too_long(const SortedList& list, std::span<const std::uint32_t> en
         if (i % group_size == 0) rounds = longest = 0;
         const std::uint32_t length = ends[i] - begin;
         begin = ends[i];
-        longest = std::max(longest, length);
+        longest = std::max(longest, ends[i] - (i < list.neighbours ? 0 : ends[i - list.neighbours]));
         rounds += sorting_rounds(length, group_size);
         if (std::max(rounds, list.rounds(longest)) > most_rounds_of_a_list) return longest;
     }

@@ -291,7 +291,7 @@ void Halo::send_sleep_states(State& state, Exchange& exchange) {
 void Halo::send_struck(State& state, Exchange& exchange) {
     send<std::uint32_t>(
         state, exchange, [](const State& s, std::uint32_t row) { return s.bounds[row].sweep.marks; },
-        [](State& s, std::uint32_t row, const std::uint32_t& struck) { s.bounds[row].sweep.marks = struck; });
+        [](State& s, std::uint32_t row, const std::uint32_t& marks) { s.bounds[row].sweep.marks = marks; });
     Bytes sent;
     for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
         if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.marks == 0) continue;

@@ -38,10 +38,9 @@ struct WideTables {
     std::uint32_t* body_groups = nullptr;  // of the bodies in `items`: words_of_body for each, one body per lane
     bool plain = false;                    // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;                  // tables are read after every stage: impulses not after the last alone, impacts always
-    bool sums_impacts =
-        true;  // BodyForces.impact_weight is written: some body may be in an impact with restitution, or `watched`
-    bool warm_starts = false;  // preparation warm-starts contacts from the last step, and is that of all contacts
-    bool prefetches = false;   // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
+    bool sums_impacts = true;              // BodyForces.impact_weight is written: some body may be in an impact, or `watched`
+    bool warm_starts = false;              // preparation warm-starts contacts from the last step, and is that of all contacts
+    bool prefetches = false;  // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
     float* impact_debts = nullptr;  // of each body, J (restitution.h)
     float* carried = nullptr;       // normal impulse of each contact in the step, N s; null if no body may break
     bool first = false;             // the first substep of a step
