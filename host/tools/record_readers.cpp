@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <utility>
 
 namespace scree::host {
@@ -51,33 +52,47 @@ std::string place_of(std::size_t texels, std::size_t texel) {
     return "PLACE(" + std::to_string(texels) + "u, i, " + std::to_string(texel) + "u)";
 }
 
-// Only scalars and vectors, which fill whole texels.
+// A mask of its texels is one word.
 bool has_writer(const Record& record) {
-    return record.bytes % 16 == 0 && std::all_of(record.members.begin(), record.members.end(), [](const RecordMember& member) {
-               return member.count == 0 && (member.type == "uint" || member.type == "int" || member.type == "float" ||
-                                            member.type.starts_with("vec") || member.type.starts_with("uvec"));
-           });
+    return record.bytes % 16 == 0 && record.bytes / 16 <= 32;
 }
 
-// Writes the texels of the members in the mask `members`, and the bit of each member in it.
-std::string writer_of(const Record& record) {
-    const std::size_t texels = record.bytes / 16;
-    std::vector<std::string> words(texels);
-    std::string text;
-    for (const RecordMember& member : record.members) {
-        const std::size_t texel = member.offset / 16;
-        const std::string value = "r." + member.name;
-        const std::string bits = member.type == "float" || member.type.starts_with("vec") ? "floatBitsToUint(" + value + ")"
-                                 : member.type == "int"                                   ? "uint(" + value + ")"
-                                                                                          : value;
-        words[texel] += (words[texel].empty() ? "" : ", ") + bits;
-        text += "#define MEMBER_OF_" + record.name + "_" + member.name + " " + std::to_string(1u << texel) + "u\n";
+// Adds the scalars and vectors of a value of a type at a byte offset to the words of the texels that they are in.
+void take_apart(const std::vector<Record>& records, const std::string& type, const std::string& value, std::size_t byte,
+                std::vector<std::string>& words) {
+    if (const Record* record = find(records, type)) {
+        for (const RecordMember& member : record->members) {
+            const std::string name = value + "." + member.name;
+            if (member.count == 0) take_apart(records, member.type, name, byte + member.offset, words);
+            for (std::size_t i = 0; i < member.count; ++i)
+                take_apart(records, member.type, name + "[" + std::to_string(i) + "]", byte + member.offset + i * member.stride,
+                           words);
+        }
+        return;
     }
-    text += "#define SCREE_WRITER_" + record.name + "(table, PLACE) \\\n    void write_##table(uint i, " + record.name +
+    std::string& texel = words[byte / 16];
+    texel += (texel.empty() ? "" : ", ") + (type == "float" || type.starts_with("vec") ? "floatBitsToUint(" + value + ")"
+                                            : type == "int"                            ? "uint(" + value + ")"
+                                                                                       : value);
+}
+
+// Writes the texels of the members in the mask `members`, and the bits of each member in it.
+std::string writer_of(const std::vector<Record>& records, const Record& record) {
+    const std::size_t texels = record.bytes / 16;
+    std::string text;
+    for (std::size_t m = 0; m < record.members.size(); ++m) {
+        const std::size_t next = m + 1 < record.members.size() ? record.members[m + 1].offset : record.bytes;
+        std::uint32_t bits = 0;
+        for (std::size_t texel = record.members[m].offset / 16; 16 * texel < next; ++texel) bits |= 1u << texel;
+        text += "#define MEMBER_OF_" + record.name + "_" + record.members[m].name + " " + std::to_string(bits) + "u\n";
+    }
+    text += "#define SCREE_WRITER_" + record.name + "(table, STORE, PLACE) \\\n    void write_##table(uint i, " + record.name +
             " r, uint members) { \\\n";
+    std::vector<std::string> words(texels);
+    take_apart(records, record.name, "r", 0, words);
     for (std::size_t k = 0; k < texels; ++k)
-        text += "        if ((members & " + std::to_string(1u << k) + "u) != 0u) table.at[" + place_of(texels, k) + "] = uvec4(" +
-                words[k] + "); \\\n";
+        text += "        if ((members & " + std::to_string(1u << k) + "u) != 0u) STORE(table, " + place_of(texels, k) +
+                ", uvec4(" + words[k] + ")); \\\n";
     return text + "    }\n";
 }
 
@@ -96,7 +111,7 @@ std::string readers_of(const std::vector<Record>& records, const std::string& so
     std::string text = "// Records put together from texels, and taken apart. Made from " + source +
                        " when the project is built.\n#ifndef SCREE_RECORD_READERS_GLSL\n#define SCREE_RECORD_READERS_GLSL\n";
     for (const Record& record : records) {
-        if (has_writer(record)) text += writer_of(record);
+        if (has_writer(record)) text += writer_of(records, record);
         if (has_reader(record))
             text += reader_of(records, record);
         else

@@ -9,6 +9,7 @@ namespace scree::host {
 
 EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with) {
     EnabledFeatures found;
+    found.long_words = made_with.pEnabledFeatures && made_with.pEnabledFeatures->shaderInt64;
     for (auto* next = static_cast<const VkBaseInStructure*>(made_with.pNext); next; next = next->pNext) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
             const auto& features = *reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next);
@@ -20,6 +21,8 @@ EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with) {
         } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES) {
             found.timelines |=
                 reinterpret_cast<const VkPhysicalDeviceTimelineSemaphoreFeatures*>(next)->timelineSemaphore == VK_TRUE;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2) {
+            found.long_words |= reinterpret_cast<const VkPhysicalDeviceFeatures2*>(next)->features.shaderInt64 == VK_TRUE;
         }
     }
     return found;

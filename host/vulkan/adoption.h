@@ -12,6 +12,7 @@ namespace scree::host {
 struct EnabledFeatures {
     bool addresses = false;
     bool timelines = false;
+    bool long_words = false;  // shaderInt64
 };
 EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with);
 

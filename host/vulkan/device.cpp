@@ -183,11 +183,14 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     in.vk.vkGetPhysicalDeviceFeatures2(in.physical, &features);
     in.has_timelines = timelines.timelineSemaphore;
     addresses.pNext = &timelines;
+    VkPhysicalDeviceFeatures turned_on{};
+    turned_on.shaderInt64 = in.report.prefers_texels;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &addresses;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &turned_on;
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{};
@@ -218,6 +221,7 @@ std::shared_ptr<Device> Device::adopt(const HostDevice& made) {
     in.report = describe(in.vk, made.physical, 0);
     const EnabledFeatures enabled = enabled_features(*made.made_with);
     in.report.has_addresses = in.report.has_addresses && enabled.addresses;
+    in.report.prefers_texels = in.report.prefers_texels && enabled.long_words;
     in.has_timelines = enabled.timelines;
     std::uint32_t count = 0;
     in.vk.vkGetPhysicalDeviceQueueFamilyProperties(made.physical, &count, nullptr);

@@ -19,8 +19,8 @@ void main() {
     if (PARAMETERS.redo == 0u) {
         Velocity velocity = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
         if (changes_velocity(action, body)) velocity = velocity_before_substeps(velocity, action, PARAMETERS);
-        velocities.at[action.body] = velocity;
+        WRITE(velocities, action.body, velocity);
     }
     WORD(sleep_states, action.body) = sets ? RESTARTS : roused(WORD(sleep_states, action.body), PARAMETERS.sleep_steps);
-    forces.at[action.body] = apply_forces(forces.at[action.body], action, mass);
+    WRITE(forces, action.body, apply_forces(forces.at[action.body], action, mass));
 }

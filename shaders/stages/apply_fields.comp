@@ -15,6 +15,7 @@ void main() {
     Immersion immersion = no_immersion();
     if (PARAMETERS.air_density + PARAMETERS.water_density > 0.0f) immersion = READ_QUADS(immersions, id_of(i));
     Pose pose = READ(poses, i);
-    forces.at[i] = with_fields(READ(forces, i), body, immersion, pose, READ(velocities, i), mass_in_world(body, pose.orientation),
-                               parameters_of(i));
+    WRITE(forces, i,
+          with_fields(READ(forces, i), body, immersion, pose, READ(velocities, i), mass_in_world(body, pose.orientation),
+                      parameters_of(i)));
 }

@@ -17,9 +17,9 @@ void main() {
     if (i < PARAMETERS.bodies) {
         BodyProperties body = READ(properties, i);
         if (GRAVITIES)
-            forces.at[i] = gravity_forces(body, parameters_of(body.owner));
+            WRITE(forces, i, gravity_forces(body, parameters_of(body.owner)));
         else
-            forces.at[i] = gravity_forces(body, PARAMETERS);
+            WRITE(forces, i, gravity_forces(body, PARAMETERS));
         if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = roused(WORD(sleep_states, i), PARAMETERS.sleep_steps);
     }
     // Rows by different threads: a software device repeats what a single thread does for every vector of threads.

@@ -14,8 +14,8 @@ void main() {
     for (uint k = 0u; k < fracturing.count; ++k) {
         uint row = fracturing.first_row + k;
         RigidState part = piece_of(READ_QUADS(pieces, fracturing.first_pose + k), pose, velocity);
-        poses.at[row] = part.pose;
-        velocities.at[row] = part.velocity;
+        WRITE(poses, row, part.pose);
+        WRITE(velocities, row, part.velocity);
         WORD(sleep_states, row) = 0u;
         properties.at[row].motion = MOTION_DYNAMIC;
         if (properties.at[row].fracture == NONE) continue;
@@ -25,5 +25,5 @@ void main() {
     properties.at[i].motion = MOTION_BROKEN;
     SET_FLOAT(strains, i, 0.0f);
     WORD(sleep_states, i) = 0u;
-    velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+    WRITE(velocities, i, Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f));
 }

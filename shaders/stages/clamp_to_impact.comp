@@ -13,6 +13,6 @@ void main() {
     if (stop >= 1.0f) return;
     ClampedMotion after =
         clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(properties, i), READ(forces, i), stop);
-    poses.at[i] = after.pose;
-    velocities.at[i] = held_velocity(after.velocity, PARAMETERS);
+    WRITE(poses, i, after.pose);
+    WRITE(velocities, i, held_velocity(after.velocity, PARAMETERS));
 }

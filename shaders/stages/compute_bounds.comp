@@ -20,12 +20,12 @@ void main() {
     BodyProperties body = READ(properties, i);
     Pose pose = READ(poses, i);
     if (is_absent(body.motion) || (GHOSTS && (body.flags & ROW_ELSEWHERE) != 0u)) {
-        bounds.at[i] = no_bounds(pose);
+        WRITE(bounds, i, no_bounds(pose));
         return;
     }
     uint owner = body_of(i);
     if (is_quarantined(owner == i ? body.motion : READ(properties, owner).motion)) {
-        bounds.at[i] = no_bounds(pose);
+        WRITE(bounds, i, no_bounds(pose));
         float mark = masses.at[i].shares;
         if (mark < 0.0f) masses.at[i].shares = quarantine_code(mark, COUNTS.steps);
         return;
@@ -35,9 +35,9 @@ void main() {
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        masses.at[i] = turned_mass(masses.at[i], body, pose.orientation);
+        WRITE(masses, i, turned_mass(masses.at[i], body, pose.orientation));
     } else {
-        masses.at[i] = BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+        WRITE(masses, i, BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f));
     }
     bool listed = !is_large(body) && (around.level & NOT_IN_GRID) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
@@ -51,5 +51,5 @@ void main() {
     }
     if (COPIES && around.bucket != NONE) around = of_copy(around, copy_of(owner), PARAMETERS);
     if (around.bucket != NONE) atomicAdd(WORD(cell_counts, around.bucket), 1u);
-    bounds.at[i] = around;
+    WRITE(bounds, i, around);
 }

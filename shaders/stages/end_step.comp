@@ -45,7 +45,7 @@ void main() {
     if (!moved || !is_sound(velocity)) {
         properties.at[i].motion = MOTION_QUARANTINED;
         masses.at[i].shares = moved ? AFTER_STEP : AFTER_MOVE;
-        velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        WRITE(velocities, i, Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f));
         WORD(sleep_states, i) = 0u;
         atomicAdd(COUNTS.quarantined, 1u);
         return;
@@ -58,7 +58,7 @@ void main() {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);
     }
-    velocities.at[i] = velocity;
+    WRITE(velocities, i, velocity);
     Sweep sweep = bounds.at[i].sweep;
     if (!was_fast(body, sweep, READ(poses, i))) return;
     bounds.at[i].sweep = stopped_at(sweep, seen_part(body, sweep, READ(poses, i), bounds.at[i]));

@@ -15,10 +15,10 @@ void main() {
     uint place = READ_WORD(contact_starts, i);
     Pair pair = READ(pairs, i);
     if (is_carried_forward(pair.pair_type))
-        contacts.at[place] = READ(contacts_before, pair.previous);
+        WRITE(contacts, place, READ(contacts_before, pair.previous));
     else
-        contacts.at[place] =
-            contact_of(pair, FOUND_MANIFOLD(i), points, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
+        WRITE(contacts, place,
+              contact_of(pair, FOUND_MANIFOLD(i), points, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b))));
     WORD(contact_pairs, place) = i;
     WORD(contact_slots, 2u * place) = NONE;
     WORD(contact_slots, 2u * place + 1u) = NONE;

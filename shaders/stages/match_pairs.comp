@@ -56,5 +56,5 @@ void main() {
                                  READ(poses, of_b), READ(velocities, of_b));
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);
     }
-    pairs.at[place] = pair;
+    WRITE(pairs, place, pair);
 }

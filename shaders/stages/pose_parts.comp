@@ -12,6 +12,6 @@ void main() {
     if (motion_of(body) == MOTION_FIXED) return;
     PoseInBody part = part_in(i);
     Pose owner = poses.at[body.owner];
-    poses.at[i] = pose_of_part(part, owner);
-    velocities.at[i] = velocity_of_part(part, owner, velocities.at[body.owner]);
+    WRITE(poses, i, pose_of_part(part, owner));
+    WRITE(velocities, i, velocity_of_part(part, owner, velocities.at[body.owner]));
 }

@@ -68,8 +68,10 @@ void main() {
         ContactShare share = first_share(constraint, impulse, now, mass_a, mass_b, own);
         of_block = larger(of_block, share.weight);
         float weight = next == 0u ? of_block : 0.0f;
-        if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = velocity_delta(share.change.a, weight, impulse.normal_sum);
-        if (constraint.slot_b != NONE) slots.at[constraint.slot_b] = velocity_delta(share.change.b, weight, impulse.normal_sum);
+        if (constraint.slot_a != NONE)
+            WRITE(slots, constraint.slot_a, velocity_delta(share.change.a, weight, impulse.normal_sum));
+        if (constraint.slot_b != NONE)
+            WRITE(slots, constraint.slot_b, velocity_delta(share.change.b, weight, impulse.normal_sum));
         before = here;
         here = next;
         ++place;

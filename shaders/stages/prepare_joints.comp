@@ -104,5 +104,6 @@ void main() {
         if (joints.at[j].broken == 0u) share_out(j);
     for (uint m = block_first_body; m < bodies_end; ++m)
         if (block_bodies.at[m].slot != NONE)
-            slots.at[block_bodies.at[m].slot] = velocity_delta(block_bodies.at[m].velocity, 1.0f, block_bodies.at[m].normal_sum);
+            WRITE(slots, block_bodies.at[m].slot,
+                  velocity_delta(block_bodies.at[m].velocity, 1.0f, block_bodies.at[m].normal_sum));
 }

@@ -24,5 +24,5 @@ void main() {
         velocity = given_back(velocity, whole_mass(READ(masses, i)), c, pushes_at(contact), READ_WORD(slot_sides, k) & 1u,
                               impulse * (1.0f - kept));
     }
-    velocities.at[i] = clamp_velocity(velocity, PARAMETERS);
+    WRITE(velocities, i, clamp_velocity(velocity, PARAMETERS));
 }

@@ -10,7 +10,7 @@ void keep_manifold(uint pair, Manifold manifold, uint points) {
     if (points == 0u) return;
     uint place = atomicAdd(COUNTS.contacts, 1u);
     WORD(manifold_places, pair) = min(place, PARAMETERS.contact_capacity - 1u);
-    if (place < PARAMETERS.contact_capacity) manifolds.at[place] = manifold;
+    if (place < PARAMETERS.contact_capacity) WRITE(manifolds, place, manifold);
 }
 
 // Of a pair with points, in later stages.

@@ -9,7 +9,6 @@
 
 #define SCREE_GROUPED(quads, i, k) place_in_groups(quads, i, k, GROUP_SHIFT)
 #define READ_GROUPED(table, i) read_##table(i)
-const uint EVERY_MEMBER = 0xFFFFFFFFu;
 
 #ifdef SCREE_TEXELS
 #define SCREE_GROUPED_QUAD SCREE_TEXEL
@@ -27,9 +26,9 @@ SCREE_READER_ContactImpulse(impulses_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
 SCREE_READER_ContactImpact(impacts, SCREE_GROUPED_QUAD_OF_SOLVER, SCREE_GROUPED)
 SCREE_READER_ContactImpact(impacts_before, SCREE_GROUPED_QUAD, SCREE_GROUPED)
 SCREE_READER_Constraint(constraints, SCREE_GROUPED_QUAD, SCREE_GROUPED)
-SCREE_WRITER_ContactImpulse(impulses, SCREE_GROUPED)
-SCREE_WRITER_ContactImpact(impacts, SCREE_GROUPED)
-SCREE_WRITER_Constraint(constraints, SCREE_GROUPED)
+SCREE_WRITER_ContactImpulse(impulses, SCREE_STORE, SCREE_GROUPED)
+SCREE_WRITER_ContactImpact(impacts, SCREE_STORE, SCREE_GROUPED)
+SCREE_WRITER_Constraint(constraints, SCREE_STORE, SCREE_GROUPED)
 // clang-format on
 
 #endif

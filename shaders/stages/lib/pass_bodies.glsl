@@ -21,7 +21,7 @@ void drive_body(uint i, uint left) {
     if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
     Action action = actions.at[i];
     if (!changes_velocity(action, READ(properties, action.body))) return;
-    velocities.at[action.body] = velocity_in_substep(READ(velocities, action.body), action, left, PARAMETERS);
+    WRITE(velocities, action.body, velocity_in_substep(READ(velocities, action.body), action, left, PARAMETERS));
 }
 
 // Applies warm starts (with the previous relax pass), forces, damping and grab springs, and updates the split state.
@@ -35,7 +35,7 @@ void begin_body(uint i) {
         if (PARAMETERS.grips[k].body == i)
             velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
     }
-    velocities.at[i] = velocity;
+    WRITE(velocities, i, velocity);
     masses.at[i].shares = pack_shares(sum.weight, sum.passed_on);
 }
 
@@ -60,9 +60,9 @@ void move_body(uint i) {
         bounds.at[i].sweep.marks = UNSOUND;
         after = moved_soundly(sound, READ(poses, i), after);
     }
-    poses.at[i] = after.pose;
-    velocities.at[i] = after.velocity;
-    if (!has_isotropic_inertia(body)) masses.at[i] = turned_mass(READ(masses, i), body, after.pose.orientation);
+    WRITE(poses, i, after.pose);
+    WRITE(velocities, i, after.velocity);
+    if (!has_isotropic_inertia(body)) WRITE(masses, i, turned_mass(READ(masses, i), body, after.pose.orientation));
 }
 
 #endif

@@ -20,8 +20,8 @@ VelocityPair velocities_of(Constraint c) {
     return v;
 }
 void write_slots(Constraint c, VelocityPair share, float weight, float passed_on) {
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, passed_on);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, passed_on);
+    if (c.slot_a != NONE) WRITE(slots, c.slot_a, velocity_delta(share.a, weight, passed_on));
+    if (c.slot_b != NONE) WRITE(slots, c.slot_b, velocity_delta(share.b, weight, passed_on));
 }
 
 // Of the contact with which a pass over a block begins, and of those that come after it.

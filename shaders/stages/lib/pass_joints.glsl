@@ -652,7 +652,7 @@ void write_deltas(float weight, bool with_normal_impulse) {
         MEMBER(m).velocity = v;
 #endif
         if (MEMBER(m).slot != NONE)
-            slots.at[MEMBER(m).slot] = velocity_delta(v, weight, with_normal_impulse ? MEMBER(m).normal_sum : 0.0f);
+            WRITE(slots, MEMBER(m).slot, velocity_delta(v, weight, with_normal_impulse ? MEMBER(m).normal_sum : 0.0f));
     }
 }
 

@@ -61,6 +61,7 @@ push;
 #define COUNTED READ(counts, 0u)  // read-only: all but the arguments
 
 #include "shaders/stages/lib/read.glsl"
+#include "shaders/stages/lib/write.glsl"
 
 // after the declarations of the buffers
 #include "shaders/stages/lib/grouped.glsl"
