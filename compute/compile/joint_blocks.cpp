@@ -101,15 +101,32 @@ void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Elim
     cut(graph, {middle, joints.end()}, blocks);
 }
 
-std::vector<std::vector<Eliminated>> blocks_of(const Scene& scene, const Graph& graph) {
-    std::vector<std::vector<Eliminated>> blocks;
+struct Block {
+    std::vector<Eliminated> order;
+    bool is_cut;  // its graph is cut at more bodies than converge by themselves
+};
+// Bodies that several blocks share.
+std::size_t shared_bodies(const Scene& scene, const Graph& graph, const std::vector<std::vector<Eliminated>>& blocks) {
+    std::map<std::size_t, std::set<std::size_t>> blocks_at;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        for (const Eliminated& each : blocks[i])
+            for (const std::size_t body : {scene.joints[each.joint].a, scene.joints[each.joint].b})
+                if (graph.moves(body)) blocks_at[body].insert(i);
+    return static_cast<std::size_t>(
+        std::count_if(blocks_at.begin(), blocks_at.end(), [](const auto& at) { return at.second.size() > 1; }));
+}
+std::vector<Block> blocks_of(const Scene& scene, const Graph& graph) {
+    std::vector<Block> blocks;
     std::vector<bool> done(scene.joints.size());
     for (std::uint32_t j = 0; j < scene.joints.size(); ++j) {
         if (done[j]) continue;
         // From an end, so that a chain is cut into halves.
         const Indices whole = graph.reached_from(graph.reached_from(j).back());
         for (const std::uint32_t joint : whole) done[joint] = true;
-        cut(graph, whole, blocks);
+        std::vector<std::vector<Eliminated>> made;
+        cut(graph, whole, made);
+        const bool is_cut = shared_bodies(scene, graph, made) > most_shared_bodies;
+        for (std::vector<Eliminated>& order : made) blocks.push_back({std::move(order), is_cut});
     }
     return blocks;
 }
@@ -124,7 +141,7 @@ vec4 frame_from(const vec4& frame, std::size_t first) {
     return physics::compose(frame, vec4(0.5f, 0.5f, 0.5f, first == 1 ? 0.5f : -0.5f));
 }
 
-physics::Joint record_of(const Joint& joint) {
+physics::Joint record_of(const Joint& joint, physics::uint flags) {
     physics::Joint record{};
     record.a = index_of(joint.a);
     record.b = index_of(joint.b);
@@ -133,9 +150,9 @@ physics::Joint record_of(const Joint& joint) {
     const JointAxes axes = axes_of_kind(joint.kind);
     record.frame_a = frame_from(joint.frame_a, axes.first);
     record.frame_b = frame_from(joint.frame_b, axes.first);
-    record.flags = axes.flags | (joint.collide ? physics::JOINT_COLLIDES : 0u);
+    record.flags = axes.flags | (joint.collide ? physics::JOINT_COLLIDES : 0u) | flags;
     for (std::size_t k = 0; k < 6; ++k) {
-        record.axes[k] = axis_record(axes, k);
+        set_axis_record(record, axes, k);
         record.rotors[k] = rotor_record(axes.axes[k]);
     }
     record.break_force = joint.break_force;
@@ -154,12 +171,12 @@ bool swings_over(const physics::JointAxis& y, const physics::JointAxis& z, physi
 }
 
 // Appends one block: its bodies, then its joints.
-void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated>& order, JointTables& tables) {
+void append(const Scene& scene, const Graph& graph, const Block& made, JointTables& tables) {
     physics::JointBlock block{};
     block.first_joint = static_cast<physics::uint>(tables.joints.size());
     block.first_body = static_cast<physics::uint>(tables.bodies.size());
     std::map<std::size_t, physics::uint> member_of;
-    for (const Eliminated& eliminated : order) {
+    for (const Eliminated& eliminated : made.order) {
         const Joint& joint = scene.joints[eliminated.joint];
         tables.record_of[eliminated.joint] = block.first_joint + block.joints++;
         for (const std::size_t body : {joint.a, joint.b}) {
@@ -172,9 +189,9 @@ void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated
         }
     }
     const auto block_body = [&](std::size_t body) { return graph.moves(body) ? member_of.at(body) : physics::NONE; };
-    for (const Eliminated& eliminated : order) {
+    for (const Eliminated& eliminated : made.order) {
         const Joint& joint = scene.joints[eliminated.joint];
-        physics::Joint record = record_of(joint);
+        physics::Joint record = record_of(joint, made.is_cut ? physics::JOINT_CUT : 0u);
         record.block_body_a = block_body(joint.a);
         record.block_body_b = block_body(joint.b);
         for (const std::uint32_t other : eliminated.fill_in) record.fill_in_of[record.fill_in++] = tables.record_of[other];
@@ -276,6 +293,10 @@ physics::JointAxis axis_record(const JointAxes& axes, std::size_t k) {
     }
     return record;
 }
+void set_axis_record(physics::Joint& joint, const JointAxes& axes, std::size_t k) {
+    joint.axes[k] = axis_record(axes, k);
+    if (joint.axes[k].mode != 0 && (joint.flags & physics::JOINT_CUT) != 0) joint.axes[k].mode |= physics::AXIS_CUT;
+}
 physics::JointRotor rotor_record(const Axis& axis) {
     return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, 0, 0, 0};
 }
@@ -285,7 +306,7 @@ JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties
     if (scene.joints.empty()) return tables;
     tables.record_of.resize(scene.joints.size());
     const Graph graph(scene, properties);
-    for (const std::vector<Eliminated>& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
+    for (const Block& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
     std::vector<physics::uint> blocks(scene.bodies.size());
     for (const physics::BlockBody& member : tables.bodies) ++blocks[member.body];
     for (physics::BlockBody& member : tables.bodies) member.blocks = blocks[member.body];

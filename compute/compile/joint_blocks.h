@@ -18,6 +18,9 @@ struct State;
 // share bodies like contacts (mass splitting). The joints of a block are eliminated one after the other, so larger ones
 // would keep the others waiting.
 constexpr std::size_t most_joints_of_block = physics::MAX_BLOCK_JOINTS;
+// Of a graph whose blocks share more bodies than this, joints are softer (JOINT_CUT): a machine that is cut once stays stiff, a net
+// would boil.
+constexpr std::size_t most_shared_bodies = 2;
 
 struct JointTables {
     std::vector<physics::Joint> joints;
@@ -41,6 +44,7 @@ struct JointAxes {
 JointAxes axes_of_kind(const JointKind& kind);  // in the order of the record
 physics::JointAxis axis_record(const Axis& axis);
 physics::JointAxis axis_record(const JointAxes& axes, std::size_t k);
+void set_axis_record(physics::Joint& joint, const JointAxes& axes, std::size_t k);  // of a joint whose flags are set
 physics::JointRotor rotor_record(const Axis& axis);
 // The coordinates of a joint whose bodies are at these poses.
 physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b);

@@ -116,7 +116,7 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
     for (std::size_t j = copy * joints; j < (copy + 1) * joints; ++j) {
         physics::Joint& joint = state.joints[state.joint_records[j]];
         const JointAxes made = axes_of_kind(scene.joints[j].kind);
-        for (std::size_t k = 0; k < 6; ++k) joint.axes[k] = axis_record(made, k);
+        for (std::size_t k = 0; k < 6; ++k) set_axis_record(joint, made, k);
         joint.broken = scene.joints[j].broken;
         start_joint(state, joint, scene.joints[j].angle);
     }

@@ -79,7 +79,7 @@ void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::functio
     runner->download({range});
     const JointAxes axes = axes_of_kind(joint.kind);
     const std::size_t k = axes.in_record(static_cast<std::size_t>(axis));
-    state.joints[record].axes[k] = axis_record(axes, k);
+    set_axis_record(state.joints[record], axes, k);
     state.joints[record].rotors[k].inertia = rotor_record(axes.axes[k]).inertia;
     runner->upload({range});
     wake(joint);

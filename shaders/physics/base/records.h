@@ -334,6 +334,7 @@ CONSTANT uint AXIS_LIMITED = 2u;
 CONSTANT uint AXIS_MOTOR = 4u;   // velocity motor; friction is a motor of speed 0
 CONSTANT uint AXIS_SPRING = 8u;  // spring, damper or both
 CONSTANT uint AXIS_ROTOR = 16u;  // armature: the inertia of a rotor
+CONSTANT uint AXIS_CUT = 32u;    // of a joint with JOINT_CUT, where it is not free
 struct JointAxis {
     uint mode;           // AXIS_*
     float lower, upper;  // limits of the coordinate, m or rad
@@ -369,6 +370,7 @@ CONSTANT uint JOINT_CONE = 2u;      // swing axis y is the one B has swung about
 CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies collide with each other
 CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis, so swing axes exclude its twist
 CONSTANT uint JOINT_SWINGS = 16u;   // B may swing half a turn about any axis, where its twist is anything: no turns are counted
+CONSTANT uint JOINT_CUT = 32u;     // of a graph cut into blocks that share several bodies (compute/compile/joint_blocks.h)
 // The active set: each axis has four bits of Joint.active_set.
 CONSTANT uint MOTOR_AT_MIN = 1u;  // the motor is at its limit, negative
 CONSTANT uint MOTOR_AT_MAX = 2u;  // positive

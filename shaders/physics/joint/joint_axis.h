@@ -21,6 +21,9 @@ CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest angular correction
 // Compliance of rigid rows, relative to their inverse effective mass: mechanisms have redundant joints, and without
 // compliance their equations are singular. More stretches chains; less lets the redundant part grow from rounding.
 CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
+// Of a graph that is cut into blocks. A pass is one iteration over them: what it leaves of the correction's speed is energy, and
+// impulses that oppose each other across a cut grow. With the values above, nets of joints boil.
+CONSTANT float CUT_RATE = 0.05f, CUT_COMPLIANCE = 1.0e-2f;
 CONSTANT float GENTLE_SPRING = 0.25f;  // stability limit of explicit springs: softer ones act as forces
 
 struct RowTarget {  // row speed + bias + compliance * impulse's change = 0
@@ -28,10 +31,16 @@ struct RowTarget {  // row speed + bias + compliance * impulse's change = 0
     float compliance;
 };
 
+LAW bool is_cut(JointAxis axis) {
+    return (axis.mode & AXIS_CUT) != 0u;
+}
 // Bias velocity that corrects a position error (Baumgarte), limited, m/s or rad/s.
-LAW float joint_push(float coordinate, uint axis, Parameters parameters) {
-    float fastest = choose(is_linear(axis), parameters.push_speed, JOINT_TURN_SPEED);
-    return clamped(coordinate * (JOINT_RATE * parameters.inverse_h), -fastest, fastest);
+LAW float joint_push(float coordinate, JointAxis axis, uint index, Parameters parameters) {
+    float fastest = choose(is_linear(index), parameters.push_speed, JOINT_TURN_SPEED);
+    return clamped(coordinate * (choose(is_cut(axis), CUT_RATE, JOINT_RATE) * parameters.inverse_h), -fastest, fastest);
+}
+LAW float rigid_compliance(JointAxis axis, JointRow row) {
+    return choose(is_cut(axis), CUT_COMPLIANCE, JOINT_COMPLIANCE) * row.inverse_effective_mass;
 }
 
 // Whether a spring is soft enough to act explicitly, as its force at the start of the substep, which takes no energy
@@ -119,9 +128,9 @@ LAW float saturated_motor_impulse(JointAxis axis, JointRow row, uint active_flag
 // The equation of a lock, spring or motor.
 LAW RowTarget motor_target(JointAxis axis, JointRow row, uint index, bool biased, Parameters parameters) {
     RowTarget demand;
-    demand.compliance = JOINT_COMPLIANCE * row.inverse_effective_mass;
+    demand.compliance = rigid_compliance(axis, row);
     float correction =
-        (joint_push(row.coordinate - axis.rest, index, parameters) + row.drift) + demand.compliance * row.motor_impulse;
+        (joint_push(row.coordinate - axis.rest, axis, index, parameters) + row.drift) + demand.compliance * row.motor_impulse;
     demand.bias = choose(is_locked(axis), choose(biased, correction, 0.0f), -axis.speed);
     bool sprung = has_spring(axis) && !has_motor(axis) && !is_locked(axis);
     if (none(sprung)) return demand;
@@ -134,16 +143,16 @@ LAW RowTarget motor_target(JointAxis axis, JointRow row, uint index, bool biased
     return demand;
 }
 // Bias of a limit: speculative while there is room, else the correction of the violation in the biased pass.
-LAW float limit_bias(float room, float drift, uint index, bool biased, Parameters parameters) {
+LAW float limit_bias(float room, float drift, JointAxis axis, uint index, bool biased, Parameters parameters) {
     float ahead = room * parameters.inverse_h + choose(biased, drift, 0.0f);
-    return choose(room > 0.0f, ahead, choose(biased, joint_push(room, index, parameters) + drift, 0.0f));
+    return choose(room > 0.0f, ahead, choose(biased, joint_push(room, axis, index, parameters) + drift, 0.0f));
 }
 // The equation of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
 LAW RowTarget limit_target(JointAxis axis, JointRow row, uint index, bool low, bool biased, Parameters parameters) {
     RowTarget demand;
-    demand.compliance = JOINT_COMPLIANCE * row.inverse_effective_mass;
+    demand.compliance = rigid_compliance(axis, row);
     float room = choose(low, row.coordinate - axis.lower, axis.upper - row.coordinate);
-    float bias = limit_bias(room, choose(low, row.drift, -row.drift), index, biased, parameters);
+    float bias = limit_bias(room, choose(low, row.drift, -row.drift), axis, index, biased, parameters);
     bias = choose(low, bias, -bias);
     demand.bias = choose(biased, bias + demand.compliance * row.limit_impulse, bias);
     return demand;

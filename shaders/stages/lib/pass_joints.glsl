@@ -187,7 +187,7 @@ JointAxis axis_of(uint j, uint k) {
     JointAxis axis;
     axis.mode = JOINT(j).axes[k].mode;
     axis.lower = axis.upper = axis.stiffness = axis.damping = axis.rest = axis.speed = axis.most = 0.0f;
-    if (axis.mode == AXIS_LOCKED)
+    if (is_locked(axis))
         axis.rest = JOINT(j).axes[k].rest;
     else if (axis.mode != 0u)
         axis = JOINT(j).axes[k];
