@@ -34,8 +34,7 @@ void write_deltas(State& state, const physics::Constraint& c, const physics::Vel
     if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(delta.b, weight, passed_on);
 }
 
-// Each body's quiet steps, for the other's sleep.
-void show_quiet_steps(State& state, std::size_t i, bool has_surfaces) {
+void show_quiet_steps_of(State& state, std::size_t i, bool has_surfaces) {
     const bool is_driven = has_surfaces && physics::is_driven(state.constraints[i]);
     const auto show = [&](std::uint32_t slot, std::uint32_t row_of_other) {
         if (slot == physics::NONE) return;
@@ -283,20 +282,21 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const auto alone = [&](std::size_t i) { relax_block(state, i, pass); };
-    const bool last = (pass & physics::PASS_LAST) != 0;
-    if (last && state.fixed().sleep_steps != physics::NO_SLEEP) {
-        const bool has_surfaces = state.features().surfaces;
-        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, i, has_surfaces); });
-    }
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if ((pass & physics::PASS_SUMS) != 0) tables.carried = state.carried.data();
         tables.first = (pass & physics::PASS_FIRST) != 0;
-        tables.last = last;
+        tables.last = (pass & physics::PASS_LAST) != 0;
         for_each_group(state, threads, tables, *wide, wide->relax, alone);
     } else {
         for_each_solved(state, threads, alone);
     }
+}
+
+void show_quiet_steps(State& state, const Threads& threads, std::uint32_t) {
+    if (state.fixed().sleep_steps == physics::NO_SLEEP) return;
+    const bool has_surfaces = state.features().surfaces;
+    for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps_of(state, i, has_surfaces); });
 }
 
 }  // namespace scree::reference

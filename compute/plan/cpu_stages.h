@@ -50,6 +50,7 @@ SCREE_STAGE(warm_start_contacts);
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed
+SCREE_STAGE(show_quiet_steps);
 
 // slots.cpp
 SCREE_STAGE(count_slots);

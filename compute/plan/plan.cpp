@@ -133,6 +133,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         s.add("relax_contacts", last | first | (features.sums ? physics::PASS_SUMS : 0));
         if (features.joints) s.add("relax_joints", last);
     }
+    s.add("show_quiet_steps");
     s.add("end_step");
     // continuous collision
     for (std::uint32_t round = 0; round < physics::CCD_ROUNDS; ++round) {

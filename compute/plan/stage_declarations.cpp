@@ -204,12 +204,15 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, some_only({bounds}), unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
-         {impact_debts}, {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
-        {{impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, unfinished({carried, A::breakable}), in_parts({slots, A::slots}), unfinished({neighbours_quiet})}, features | physics::FEATURE_SUMS});
+         {impact_debts}, {velocities, A::movers}, {gravities}, {ids}},
+        {{impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends},
          {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
+    all.push_back({"show_quiet_steps", DispatchDomain::solver_contacts, show_quiet_steps,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {velocities, A::movers}, {properties}, {sleep_states}},
+        {in_parts({neighbours_quiet})}, physics::FEATURE_SURFACES});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
         {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({masses}), some_only({properties})}, physics::FEATURE_GHOSTS});

@@ -4,7 +4,6 @@
 
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/contact/contact_pass.h"
-#include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/impulses.glsl"
@@ -73,17 +72,8 @@ void solve_contact(uint place) {
     } while (BLOCKS && here != 0u);
 }
 
-// Each body's quiet steps, for the other's sleep.
-void show_quiet_steps(Constraint c, VelocityPair before) {
-    float quiet_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
-    float quiet_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
-    if (is_driven(c)) quiet_a = quiet_b = BESIDE_MOVING;
-    if (c.slot_a != NONE) SET_FLOAT(neighbours_quiet, c.slot_a, quiet_b);
-    if (c.slot_b != NONE) SET_FLOAT(neighbours_quiet, c.slot_b, quiet_a);
-}
-
-// The relax pass, from the last contact of the block to the first. It also writes the next substep's warm start, or in the last
-// substep the quiet steps of either body for the other, and sums the contacts' impulses over the step where bodies may break.
+// The relax pass, from the last contact of the block to the first. It also writes the next substep's warm start, and sums
+// the contacts' impulses over the step where bodies may break.
 void relax_contact(uint place, uint pass) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
@@ -113,7 +103,6 @@ void relax_contact(uint place, uint pass) {
             SET_FLOAT(carried, here - 1u, (pass & PASS_FIRST) != 0u ? after.borne : before + after.borne);
         }
         keep_impulse(here - 1u, after.impulse);
-        if (last) show_quiet_steps(c, bodies.moved);
         v = after.velocity;
         weight = larger(weight, after.counts);
         uint next = next_of_block(c, came_from);

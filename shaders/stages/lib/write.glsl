@@ -20,17 +20,17 @@ const uint EVERY_MEMBER = 0xFFFFFFFFu;
     };
 #define SCREE_LONG(table) table##Long(table)
 #else
-#define SCREE_DECLARE_LONG(index, name, block, record, length)                \
-    layout(std430, set = 0, binding = index) SCREE_SHARED buffer name##Long { \
-        u64vec2 at[];                                                         \
-    }                                                                         \
+#define SCREE_DECLARE_LONG(index, name, block, record, length)                 \
+    layout(std430, set = 0, binding = index) SCREE_SHARED buffer block##Long { \
+        u64vec2 at[];                                                          \
+    }                                                                          \
     name##_long;
 #define SCREE_LONG(table) table##_long
 #endif
 SCREE_WIDE_TABLES(SCREE_DECLARE_LONG)
 
 u64vec2 long_words(uvec4 quad) {
-    return u64vec2(packUint2x32(quad.xy), packUint2x32(quad.zw));
+    return u64vec2(packUint2x32(uvec2(quad.x, quad.y)), packUint2x32(uvec2(quad.z, quad.w)));
 }
 #define SCREE_STORE(table, place, quad) SCREE_LONG(table).at[place] = long_words(quad)
 
