@@ -146,8 +146,19 @@ void CommandBuffer::dispatch_indirect(const Buffer& arguments, std::size_t offse
     device_->vk().vkCmdDispatchIndirect(commands_, arguments.handle(), offset);
 }
 
-void CommandBuffer::barrier() {
-    all_memory(*device_, commands_, 0, 0);
+void CommandBuffer::barrier(Waiting waiting) {
+    if (waiting == Waiting::everything) return all_memory(*device_, commands_, 0, 0);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    if (waiting == Waiting::indirect) {
+        barrier.dstAccessMask |= VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+        stages |= VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+    }
+    device_->vk().vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, stages, 0, 1, &barrier, 0, nullptr, 0,
+                                       nullptr);
 }
 
 void CommandBuffer::zero(const Buffer& buffer) {

@@ -23,7 +23,13 @@ public:
     void push(const void* data, std::uint32_t bytes);
     void dispatch(std::uint32_t groups, std::uint32_t rows = 1);          // workgroups along the first and the second axis
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
-    void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
+    // What waits at a barrier for the writes of earlier commands.
+    enum class Waiting {
+        dispatches,  // compute shaders alone, for compute shaders
+        indirect,    // also indirect arguments
+        everything,  // also uniforms, vertices and transfers, for transfers too
+    };
+    void barrier(Waiting waiting = Waiting::everything);
     void zero(const Buffer& buffer);                                                             // the whole buffer
     void fill(const Buffer& buffer, std::uint32_t word, std::size_t bytes, std::size_t offset);  // whole words
     void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);

@@ -31,7 +31,11 @@ using glm::vec4;
 
 #define LAWS_BEGIN namespace scree::physics {
 #define LAWS_END }
+#ifdef __CUDACC__  // tests/twin
+#define LAW __host__ __device__ inline
+#else
 #define LAW inline
+#endif
 #define CONSTANT inline constexpr
 #else
 #define LAWS_BEGIN

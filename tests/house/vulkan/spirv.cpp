@@ -155,13 +155,19 @@ TEST_CASE("house: every block of a stage is a table of the step, at its binding"
         for (const house::StructLayout& type : house::layout_of(shaders::find(name)).structs) {
             if (!type.is_block || type.binding == house::no_binding) continue;
             INFO("shader " << name << ", block " << type.name);
-            const auto found = expected.find(type.name);
+            const bool is_long = type.name.ends_with("Long");  // the same table, to be written in words of 64 bits
+            const auto found = expected.find(is_long ? type.name.substr(0, type.name.size() - 4) : type.name);
             if (found == expected.end()) {
                 FAIL_CHECK("is no table of shaders/stages/lib/tables.h");
                 continue;
             }
             CHECK(type.binding == found->second.binding);
             REQUIRE(type.members.size() == 1);
+            if (is_long) {
+                CHECK(type.members[0].stride == 16);
+                CHECK(found->second.size % 16 == 0);
+                continue;
+            }
             CHECK(type.members[0].element == found->second.record);
             CHECK(type.members[0].stride == found->second.size);
         }
