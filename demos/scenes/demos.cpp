@@ -36,6 +36,9 @@ const std::vector<Demo>& all_demos() {
         {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
         {"drive", "a car drives a course with a ramp, a banked curve and things to push", 37, false, drive},
         {"cars", "cars of five bodies drive round and round, each by itself", 100, true, cars},
+        {"ring", "a round wall of bricks stands", 2200, true, ring},
+        {"gables", "rows of gables, triangular walls of 496 bricks, stand", 1984, true, gables},
+        {"net", "a net of balls on joints falls over a round post", 900, true, net},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},

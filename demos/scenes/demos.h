@@ -78,6 +78,9 @@ DemoScene glass(const DemoOptions&);
 DemoScene shatter(const DemoOptions&);
 DemoScene drive(const DemoOptions&);
 DemoScene cars(const DemoOptions&);
+DemoScene ring(const DemoOptions&);
+DemoScene gables(const DemoOptions&);
+DemoScene net(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);

@@ -51,6 +51,9 @@ const std::vector<Look>& looks() {
         {"shatter", by(body)},
         {"drive", by(body)},
         {"cars", by(speed, 14)},
+        {"ring", by(contact_impulse, 260)},
+        {"gables", by(contact_impulse, 260)},
+        {"net", by(speed, 8)},
         {"fountain", by(speed, 9)},
     };
     return all;
