@@ -370,7 +370,7 @@ CONSTANT uint JOINT_CONE = 2u;      // swing axis y is the one B has swung about
 CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies collide with each other
 CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis, so swing axes exclude its twist
 CONSTANT uint JOINT_SWINGS = 16u;   // B may swing half a turn about any axis, where its twist is anything: no turns are counted
-CONSTANT uint JOINT_CUT = 32u;     // of a graph cut into blocks that share several bodies (compute/compile/joint_blocks.h)
+CONSTANT uint JOINT_CUT = 32u;      // of a graph cut into blocks that share several bodies (compute/compile/joint_blocks.h)
 // The active set: each axis has four bits of Joint.active_set.
 CONSTANT uint MOTOR_AT_MIN = 1u;  // the motor is at its limit, negative
 CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
