@@ -28,19 +28,6 @@ std::size_t binding_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].buffer;
 }
 
-// At the barrier after a stage: the arguments of indirect dispatches are in the counts.
-host::CommandBuffer::Waiting waiting_after(const std::vector<Stage>& stages, std::size_t last) {
-    std::size_t first = last;
-    while (first > 0 && !stages[first - 1].barrier_after) --first;
-    const bool counts_something =
-        std::any_of(stages.begin() + static_cast<std::ptrdiff_t>(first), stages.begin() + static_cast<std::ptrdiff_t>(last) + 1,
-                    [](const Stage& stage) {
-                        return std::any_of(stage.writes.begin(), stage.writes.end(),
-                                           [](const Access& access) { return access.table == Table::counts; });
-                    });
-    return counts_something ? host::CommandBuffer::Waiting::indirect : host::CommandBuffer::Waiting::dispatches;
-}
-
 constexpr std::array read_while_changing{
     Table::poses,    Table::velocities, Table::masses, Table::forces,
     Table::impulses, Table::impacts,    Table::slots};  // shaders/stages/lib/read_coherent.glsl
@@ -306,7 +293,7 @@ const DeviceRunner::Recordings& DeviceRunner::whole_step() {
         if (timed_) commands->timestamp();
         for (std::size_t i = first; i < last; ++i) {
             record_stage(*commands, recorded_[i]);
-            if (recorded_[i].barrier_after) commands->barrier(i + 1 == last ? Waiting::everything : waiting_after(recorded_, i));
+            if (recorded_[i].barrier_after) commands->barrier(i + 1 == last ? Waiting::everything : Waiting::dispatches);
             copy_list_ends(*commands, recorded_[i]);
             if (timed_) commands->timestamp();
         }

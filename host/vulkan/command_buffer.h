@@ -25,8 +25,7 @@ public:
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
     // What waits at a barrier for the writes of earlier commands.
     enum class Waiting {
-        dispatches,  // compute shaders alone, for compute shaders
-        indirect,    // also indirect arguments
+        dispatches,  // compute shaders and their indirect arguments, for compute shaders
         everything,  // also uniforms, vertices and transfers, for transfers too
     };
     void barrier(Waiting waiting = Waiting::everything);
