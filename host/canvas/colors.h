@@ -31,6 +31,7 @@ enum class ColorMap { ember, plasma, inferno, viridis, cividis, turbo, batlow };
 struct Material {
     glm::vec3 nature{0};  // coefficients and density, as in shaders/render/frame.h
     std::string label;    // text in the legend
+    bool operator==(const Material&) const = default;
 };
 
 // The mapping of a quantity to colours; keep it fixed over a run so that colours are comparable between frames.
@@ -42,6 +43,7 @@ struct ColorScale {
     bool logarithmic = false;
     bool root = false;  // places grow with the square root, so that small values are seen beside large ones; low >= 0
     std::vector<Material> materials;  // distinguished materials, at most 8; a body takes the colour of the nearest
+    bool operator==(const ColorScale&) const = default;
 };
 
 const std::vector<std::string>& color_by_names();   // in the order of ColorBy

@@ -47,6 +47,28 @@ std::string scene_with_camera(const std::string& camera) {
 
 }  // namespace
 
+TEST_CASE("program: the lines for data sets of help and guide work in an empty folder", "[program]") {
+    const std::string few = " --bodies 20 --seconds 0.1 --size 64x48 --backend cpu --quiet";
+    for (const std::string line : {"run pile --frames out --channels depth,ids,normals,flow --cameras out/cameras.json",
+                                   "run pile --frames out/a/b --cameras out/a/b/cameras.json --report out/a/b/report.json",
+                                   "run pile --frames out --trajectory out/run.npz --export out/run.glb --save out/end.json"}) {
+        const Place place;
+        const Outcome run = run_scree(line + few, "cd '" + place.path().string() + "' &&");
+        INFO(line << "\n" << run.errors);
+        REQUIRE(run.status == 0);
+        REQUIRE(std::filesystem::exists(place / (says(line, "/a/b") ? "out/a/b/frame_000003.png" : "out/frame_000003.png")));
+        if (says(line, "cameras.json")) {
+            const json cameras = json::parse(place.read(says(line, "/a/b") ? "out/a/b/cameras.json" : "out/cameras.json"));
+            REQUIRE_FALSE(cameras.empty());
+        }
+    }
+    const Place place;  // of a run that is refused nothing is left
+    const std::string there = "cd '" + place.path().string() + "' &&";
+    REQUIRE(run_scree("run pile --frames out/a --cameras elsewhere/cameras.json" + few, there).status == 2);
+    REQUIRE(run_scree("run wal --frames out/a" + few, there).status == 2);
+    REQUIRE(std::filesystem::is_empty(place.path()));
+}
+
 TEST_CASE("program: raw frames go to the standard output, and words elsewhere", "[program]") {
     const Outcome raw = run_scree("run rest " + small + "--steps 2 --fps 60 --raw -");
     INFO(raw.errors);

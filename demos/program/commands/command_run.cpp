@@ -394,6 +394,7 @@ LoadedScene load(const RunOptions& options) {
 int run(RunOptions options) {
     RunReport report;
     report.started_at = date_and_time();
+    const OutputFolder frames(options.pictures.frames);
     require_writable(options);
     if (!options.trace.file.empty())
         options.timeline = std::make_shared<TraceFile>(options.trace.file, "scree run " + options.scene.name);
