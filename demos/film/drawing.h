@@ -47,6 +47,7 @@ private:
     Backend machine_;
     host::CanvasOptions options_;
     CopiesShown shown_;
+    std::vector<glm::vec4> colors_;  // of each body: linear, 1; w 0: none
     // Of the copies that are shown, side by side.
     std::vector<physics::Pose> poses_;
     std::vector<physics::Bounds> bounds_;

@@ -22,7 +22,8 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
     contact_impulse,   // sum of normal impulses of its contacts in a substep
     contacts,          // number of contacts, speculative ones included
     rest,              // sleep timer; sleeping bodies have the colour at 1
-    material
+    material,
+    own  // BodyTables::colors
 };
 // All but turbo are monotonic in lightness. ember falls, from a light neutral for 0 over yellow and red to violet; the
 // others rise.
@@ -53,7 +54,7 @@ std::optional<ColorMap> color_map_named(std::string_view name);
 
 std::string color_title(ColorBy by);  // "momentum |p|"
 std::string color_unit(ColorBy by);   // "kg m/s"; empty where there is none
-bool has_scale(ColorBy by);           // whether there is a numeric range; false for body, plain and material
+bool has_scale(ColorBy by);           // whether there is a numeric range; false for body, plain, material and own
 // Colour of the n-th material or body (body colours repeat after 4096), linear RGB.
 glm::vec3 name_color(unsigned n);
 // Position of a value on the scale, clamped to 0..1.
