@@ -158,8 +158,6 @@ host::BodyTables tables_of(const State& state) {
     return tables;
 }
 
-namespace {
-
 // Fragments have the colour of what they are of.
 std::vector<glm::vec4> colors_of(const Scene& scene) {
     std::vector<glm::vec4> colors(std::max<std::size_t>(1, scene.bodies.size()), glm::vec4(0));
@@ -172,6 +170,8 @@ std::vector<glm::vec4> colors_of(const Scene& scene) {
     }
     return colors;
 }
+
+namespace {
 
 // Any available canvas. OpenGL ES first, because llvmpipe draws a frame in 5% less time than lavapipe (3,000 bodies
 // at 1280x720).

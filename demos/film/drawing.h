@@ -21,6 +21,8 @@ host::ShapeInstances instances_of(const World& world, const CopiesShown& shown =
 host::ShapeInstances instances_of(const World::Share& share, bool with_still);
 // Tables of a world that is simulated on the CPU.
 host::BodyTables tables_of(const State& state);
+// Of each body its linear colour and 1, or zeros: BodyTables::colors.
+std::vector<glm::vec4> colors_of(const Scene& scene);
 
 class Drawing {
 public:
