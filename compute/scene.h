@@ -87,6 +87,7 @@ struct Body {
     float gravity_scale = 1;
     float drag = 1;                      // drag coefficient, >= 0, in Fields::wind and Fields::water
     std::uint64_t user_data = 0;         // the user's own; no result depends on it
+    std::optional<vec3> color{};         // of pictures: red, green, blue in sRGB, 0 to 1; none: a light grey
     std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
     std::optional<Fracture> fracture{};  // none: unbreakable

@@ -18,7 +18,8 @@ enum class ShownQuantity {
     contact_impulse,
     contacts,
     sleep,
-    material
+    material,
+    own  // the body's color
 };
 enum class ShownMap { ember, plasma, inferno, viridis, cividis, turbo, batlow };
 enum class ShownScale {

@@ -10,8 +10,8 @@ namespace scree::schema {
 
 template <>
 inline constexpr auto words<ShownQuantity> =
-    std::array{"momentum",         "speed",           "spin",     "kinetic-energy", "height",  "body", "plain",
-               "angular-momentum", "contact-impulse", "contacts", "sleep",          "material"};
+    std::array{"momentum",         "speed",           "spin",     "kinetic-energy", "height",   "body", "plain",
+               "angular-momentum", "contact-impulse", "contacts", "sleep",          "material", "own"};
 template <>
 inline constexpr auto words<ShownMap> = std::array{"ember", "plasma", "inferno", "viridis", "cividis", "turbo", "batlow"};
 template <>

@@ -91,6 +91,10 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     } else if constexpr (is_optional<Member>) {
         if constexpr (Number<typename Member::value_type>) {
             if (value) check_number(*value);
+        } else if constexpr (std::is_same_v<typename Member::value_type, glm::vec3>) {
+            for (int i = 0; value && i < 3; ++i)
+                if (!field.range.holds((*value)[i]))
+                    refuse(at / field.key / static_cast<std::size_t>(i), out_of_range((*value)[i], field.range, unit));
         } else {
             if (value) check_fields(at / field.key, *value, rules, within);
         }

@@ -21,6 +21,8 @@ host::ShapeInstances instances_of(const World& world, const CopiesShown& shown =
 host::ShapeInstances instances_of(const World::Share& share, bool with_still);
 // Tables of a world that is simulated on the CPU.
 host::BodyTables tables_of(const State& state);
+// Of each body its linear colour and 1, or zeros: BodyTables::colors.
+std::vector<glm::vec4> colors_of(const Scene& scene);
 
 class Drawing {
 public:
@@ -47,6 +49,7 @@ private:
     Backend machine_;
     host::CanvasOptions options_;
     CopiesShown shown_;
+    std::vector<glm::vec4> colors_;  // of each body: linear, 1; w 0: none
     // Of the copies that are shown, side by side.
     std::vector<physics::Pose> poses_;
     std::vector<physics::Bounds> bounds_;

@@ -54,6 +54,13 @@ void OrbitCamera::zoom(double clicks) {
     distance_ = std::clamp(distance_ * std::pow(0.88f, static_cast<float>(clicks)), least_distance, greatest_distance);
 }
 
+void OrbitCamera::stay_above(float height) {
+    constexpr float clearance = 0.02f;  // of the distance
+    target_.y = std::max(target_.y, height);
+    const float least = (height - target_.y) / distance_ + clearance;
+    elevation_ = std::max(elevation_, std::asin(std::clamp(least, -1.0f, std::sin(steepest))));
+}
+
 void OrbitCamera::chase(vec3 target, vec3 ahead, float distance, double seconds) {
     constexpr double in_place = 8, behind = 2.5;  // 1/s
     const auto part = [&](double rate) { return static_cast<float>(1 - std::exp(-rate * std::min(seconds, 1.0))); };

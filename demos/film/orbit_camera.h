@@ -28,6 +28,7 @@ public:
 
     void orbit(double dx, double dy);               // by pointer movement, pixels
     void pan(double dx, double dy, Extent extent);  // points at the target's distance move with the pointer
+    void stay_above(float height);                  // of a level ground, m: target and camera; the camera a little more
     void zoom(double clicks);                       // nearer if > 0
     // Chase camera: looks at the target and turns behind `ahead` within about a second.
     void chase(vec3 target, vec3 ahead, float distance, double seconds);

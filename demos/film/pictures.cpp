@@ -79,14 +79,15 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     return canvas;
 }
 
-bool can_be_parts(const PictureOptions& options, World& world) {
+bool can_be_parts(const PictureOptions& options, const LoadedScene& subject, World& world) {
+    if (style_of(options, subject.style).color == ShownQuantity::own) return false;  // ranks do not have them
     return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty();
 }
 
 // All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.
 host::CanvasOptions canvas_for(const PictureOptions& options, const LoadedScene& subject, World& world) {
     host::CanvasOptions canvas = canvas_of(options, style_of(options, subject.style), world);
-    if (can_be_parts(options, world)) canvas.samples = 1;
+    if (can_be_parts(options, subject, world)) canvas.samples = 1;
     return canvas;
 }
 
@@ -110,6 +111,8 @@ struct Pictures::Impl {
     std::string name;
     vec3 low, high;
     double fps;
+    double from;                  // s, of the first picture
+    std::optional<double> until;  // of the last
     bool captioned;
     int factor;  // by which pictures are drawn larger
     CameraTrack track;
@@ -192,6 +195,8 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                          subject.low,
                          subject.high,
                          options.fps,
+                         options.from,
+                         options.until,
                          options.caption,
                          factor_of(options),
                          CameraTrack(options.width, options.height),
@@ -209,7 +214,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     const host::CanvasOptions canvas = canvas_for(options, subject, world);
-    if (can_be_parts(options, world)) in.part = PartDrawing::make(world, canvas);
+    if (can_be_parts(options, subject, world)) in.part = PartDrawing::make(world, canvas);
     in.make_drawing = [&in, canvas, machine, shown, word = in.part ? "gl" : options.canvas, from_host = options.shutter > 0] {
         in.drawing.emplace(word, machine, in.world, canvas, shown, from_host);
     };
@@ -222,7 +227,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     if (!options.channels.empty() && in.is_first()) in.channels.emplace(options, world);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
-        in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
+        in.begun = in.before = std::max(0, static_cast<int>(std::ceil((world.time() + half_step - in.from) * in.fps)));
     }
 }
 
@@ -235,7 +240,8 @@ void Pictures::after_step() {
     if (in.past && in.is_first()) in.past->keep(in.world);
     // Picture n, due at n / fps, is drawn after the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
-    if (in.world.time() + half_step <= in.begun / in.fps) return;
+    const double due = in.from + in.begun / in.fps;
+    if (in.world.time() + half_step <= due || (in.until && due > *in.until + 1e-9)) return;
     if (in.part) in.world.share_out();
     if (in.part && in.world.share()) {
         timed(in.times.draw, [&] { in.draw_part(); });

@@ -1,7 +1,9 @@
 // Triangle meshes of cylinders, cones, hulls and meshes.
 #include "demos/film/solid_meshes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "compute/scene/hull.h"
@@ -13,9 +15,9 @@ namespace {
 
 constexpr int sides = 32;  // sides of a circle
 
-void add(host::SolidMesh& mesh, vec3 point, vec3 normal) {
-    mesh.corners.emplace_back(point, 0);
-    mesh.corners.emplace_back(normal, 0);
+void add(host::SolidMesh& mesh, vec3 point, vec3 normal, float edges = 0, float to_edge = 0) {
+    mesh.corners.emplace_back(point, edges);
+    mesh.corners.emplace_back(normal, to_edge);
 }
 vec3 on_circle(int k) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
@@ -63,10 +65,23 @@ host::SolidMesh cone_mesh() {
 
 host::SolidMesh hull_mesh(const Hull& hull) {
     host::SolidMesh mesh;
+    // Edges as those of boxes: 14% of the thinnest half width, at most 6 cm.
+    float thinnest = std::numeric_limits<float>::max();
+    for (const HullForm::Face& face : hull.form->faces)
+        thinnest = std::min(thinnest, static_cast<float>(glm::dot(face.normal, hull.form->vertices[face.corners[0]])));
+    const float edges = std::clamp(0.14f * thinnest, 1e-6f, 0.06f);
     for (const HullForm::Face& face : hull.form->faces) {
-        for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
-            for (const std::size_t corner : {std::size_t{0}, k, k + 1})
-                add(mesh, vec3(hull.form->vertices[face.corners[corner]]), vec3(face.normal));
+        // Triangles from the middle of the face to each edge.
+        const std::size_t count = face.corners.size();
+        const auto corner = [&](std::size_t k) { return vec3(hull.form->vertices[face.corners[k % count]]); };
+        vec3 middle(0);
+        for (std::size_t k = 0; k < count; ++k) middle += corner(k) / static_cast<float>(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const vec3 a = corner(k), b = corner(k + 1), along = b - a;
+            const float length = std::max(glm::length(along), 1e-12f);
+            add(mesh, middle, vec3(face.normal), edges, glm::length(glm::cross(middle - a, along)) / length);
+            add(mesh, a, vec3(face.normal), edges, 0);
+            add(mesh, b, vec3(face.normal), edges, 0);
         }
     }
     return mesh;

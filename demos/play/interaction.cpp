@@ -23,6 +23,18 @@ host::Key key(char character) {
     return host::key_of(character);
 }
 
+// Height of the highest level plane, m.
+std::optional<float> ground_of(const Scene& scene) {
+    std::optional<float> ground;
+    for (const Body& body : scene.bodies) {
+        const auto* plane = std::get_if<Plane>(&body.shape);
+        if (!plane || plane->normal.y < 0.999f * glm::length(plane->normal)) continue;
+        const float height = plane->offset / plane->normal.y;
+        ground = std::max(ground.value_or(height), height);
+    }
+    return ground;
+}
+
 }  // namespace
 
 const std::vector<KeyHelp>& key_help() {
@@ -35,6 +47,7 @@ const std::vector<KeyHelp>& key_help() {
         {"click", "select a body that is not dynamic"},
         {"Delete, V", "delete, duplicate the selected body"},
         {"J", "join two bodies: click a point of each"},
+        {"Ctrl+Z", "take the last command back"},
         {"O, or drop a file", "open a scene"},
         {"1, 2, 3", "add a sphere, a capsule, a box"},
         {"4, 5, 6", "show contacts, velocities, joints"},
@@ -43,6 +56,8 @@ const std::vector<KeyHelp>& key_help() {
         {"P, .", "pause, single step"},
         {"L", "slow motion (1/2 to 1/16), then full speed"},
         {"R, Tab", "restart, next demo (Shift: previous)"},
+        {"F1, ?", "these keys"},
+        {"Ctrl +, Ctrl -", "larger, smaller text"},
         {"H, Q", "hide the panel, quit"},
         {"Esc", "close what is open, end joining, deselect"},
         {"with a vehicle:", ""},
@@ -127,7 +142,7 @@ void Interaction::on(const host::Event& event) {
             scroll(event.amount);
             break;
         case key_pressed:
-            held_keys_.insert(event.key);
+            if (!event.control) held_keys_.insert(event.key);
             press_key(event);
             break;
         case key_released:
@@ -177,12 +192,14 @@ void Interaction::move(const host::Event& event) {
         follows = false;
         eye_.pan(dx, dy, extent_);
     }
+    if (ground_ && (motion_ == Motion::orbits || motion_ == Motion::pans)) eye_.stay_above(*ground_);
     if (motion_ == Motion::holds) drag();
 }
 
 void Interaction::scroll(double clicks) {
     if (!hold_) {
         eye_.zoom(clicks);
+        if (ground_) eye_.stay_above(*ground_);
         return;
     }
     hold_->depth *= std::pow(1.1f, static_cast<float>(clicks));
@@ -192,6 +209,10 @@ void Interaction::scroll(double clicks) {
 void Interaction::press_key(const host::Event& event) {
     using enum host::Key;
     const host::Key pressed = event.key;
+    if (event.control) {
+        if (pressed == key('Z')) undo();
+        return;
+    }
     if (is_driving_key(pressed)) {
         if (!told_) told_ = Controls{};
         return;
@@ -242,6 +263,7 @@ void Interaction::begin_again() {
     chases = !session_.subject().scene.vehicles.empty() && session_.subject().scene.vehicles.size() <= few_vehicles;
     backlog_ = 0;
     single_steps_ = 0;
+    ground_ = ground_of(session_.subject().scene);
 }
 
 void Interaction::reset() {
@@ -260,6 +282,15 @@ void Interaction::go_to(std::uint64_t step) {
     }
     selected_ = selected;
     forget_removed();
+}
+
+void Interaction::undo() {
+    begin_again();
+    try {
+        message_ = session_.undo() ? "" : "nothing to take back";
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
 }
 
 void Interaction::open(const std::string& name) {

@@ -70,6 +70,7 @@ public:
     void step_once() { ++single_steps_; }
     void reset();
     void go_to(std::uint64_t step);        // of the session's time line
+    void undo();                           // the last command
     void open(const std::string& name);    // errors go to message()
     void open_next(int direction);         // next or previous demo of the gallery
     void add(Kind kind);                   // above the centre of the view
@@ -155,6 +156,7 @@ private:
     double step_ms_ = 0;
     bool wants_to_close_ = false;
     std::string message_;
+    std::optional<float> ground_;  // m, height of the highest level plane
 };
 
 }  // namespace scree::demos

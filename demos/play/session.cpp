@@ -2,6 +2,7 @@
 #include "demos/play/session.h"
 
 #include <chrono>
+#include <cmath>
 
 #include "demos/scenes/demos.h"
 
@@ -52,7 +53,12 @@ void Session::run_script() {
     if (subject_.before_step) subject_.before_step(*world_);
 }
 
+void Session::keep_recording() {
+    if (performed_ > 0) earlier_.push_back(input());
+}
+
 void Session::reset() {
+    keep_recording();
     begin();
 }
 
@@ -61,6 +67,7 @@ void Session::open(const std::string& name) {
     options.name = name;
     if (const Demo* demo = find_demo(name); !demo || !demo->takes_bodies) options.bodies = 0;
     LoadedScene subject = load_subject(options);
+    keep_recording();
     options_ = std::move(options);
     subject_ = std::move(subject);
     begin();
@@ -82,12 +89,17 @@ void Session::perform(const UserCommand& act) {
     ++performed_;
 }
 
-// Leaves the future that was recorded, and lets go of what was held in it.
+// Leaves the future that was recorded.
 void Session::branch() {
     if (performed_ == input_.acts.size()) return;
     input_.acts.resize(performed_);
     farthest_ = world_->steps();
     std::erase_if(kept_, [&](const Kept& state) { return state.step > farthest_; });
+    release_held();
+}
+
+// Lets go of what was held in a future that was left.
+void Session::release_held() {
     std::vector<std::size_t> held;
     for (const TimedAct& timed : input_.acts) {
         if (const auto* grab = std::get_if<Grab>(&timed.act)) held.push_back(grab->grip);
@@ -119,19 +131,63 @@ void Session::go_to(std::uint64_t step) {
     farthest_ = farthest_step();
     step = std::min(step, farthest_);
     const auto later = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& state) { return state.step > step; });
-    const Kept* const from = later == kept_.begin() ? nullptr : &*std::prev(later);
-    const bool back = step < world_->steps();
-    if (back || (from && from->step > world_->steps())) {
-        if (from)
-            world_->restore(from->bytes);
-        else
-            begin_world();
-        performed_ = from ? from->performed : 0;
-        ++beginnings_;
-        run_script();
-        perform_recorded();
-    }
+    const bool ahead = later != kept_.begin() && std::prev(later)->step > world_->steps();
+    if (step < world_->steps() || ahead) replay(step);
     while (world_->steps() < step) this->step();
+}
+
+// From the last state that was kept before the step, or from the start.
+void Session::replay(std::uint64_t step) {
+    const auto later = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& state) { return state.step > step; });
+    const Kept* const from = later == kept_.begin() ? nullptr : &*std::prev(later);
+    if (from)
+        world_->restore(from->bytes);
+    else
+        begin_world();
+    performed_ = from ? from->performed : 0;
+    ++beginnings_;
+    run_script();
+    perform_recorded();
+    while (world_->steps() < step) this->step();
+}
+
+// Where the last command of input_ begins, with those that belong to it.
+std::size_t Session::last_deed() const {
+    constexpr double quick = 0.3;  // s of simulated time
+    const std::vector<TimedAct>& acts = input_.acts;
+    const auto gap = static_cast<std::uint64_t>(std::ceil(quick * static_cast<double>(world_->settings().rate)));
+    std::size_t first = acts.size() - 1;
+    const auto grip_of = [](const UserCommand& act) -> std::optional<std::size_t> {
+        if (const auto* drag = std::get_if<Drag>(&act)) return drag->grip;
+        if (const auto* release = std::get_if<Release>(&act)) return release->grip;
+        return std::nullopt;
+    };
+    if (const std::optional<std::size_t> grip = grip_of(acts[first].act)) {
+        const auto grabs = [&](const TimedAct& timed) {
+            const auto* grab = std::get_if<Grab>(&timed.act);
+            return grab && grab->grip == *grip;
+        };
+        while (first > 0 && !grabs(acts[first])) --first;
+        return first;
+    }
+    const bool repeats = std::holds_alternative<Turn>(acts[first].act) || std::holds_alternative<Push>(acts[first].act) ||
+                         std::holds_alternative<Drive>(acts[first].act);
+    while (repeats && first > 0 && acts[first - 1].act.index() == acts[first].act.index() &&
+           acts[first].step - acts[first - 1].step <= gap)
+        --first;
+    return first;
+}
+
+bool Session::undo() {
+    input_.acts.resize(performed_);
+    if (performed_ == 0) return false;
+    const std::size_t first = last_deed();
+    farthest_ = input_.acts[first].step;
+    input_.acts.resize(first);
+    std::erase_if(kept_, [&](const Kept& state) { return state.step > farthest_; });
+    replay(farthest_);
+    release_held();
+    return true;
 }
 
 // Keeps states regularly, fewer where that takes long or much memory.

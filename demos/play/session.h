@@ -32,6 +32,9 @@ public:
     // kept before, or from the start: the bits are the same. Steps from there repeat the later commands until the next one by the
     // user, which begins a branch.
     void go_to(std::uint64_t step);
+    // Takes the last command back, and what followed: goes to the moment before it. Commands of one drag, and equal ones in quick
+    // succession, are taken back together. Returns whether there was one.
+    bool undo();
     std::size_t kept_states() const { return kept_.size(); }
     std::size_t kept_bytes() const;
     std::uint64_t farthest_step() const { return std::max(farthest_, world_->steps()); }
@@ -42,6 +45,9 @@ public:
     const SceneOptions& options() const { return options_; }
     std::uint64_t beginnings() const { return beginnings_; }  // number of worlds so far, including this one
     Input input() const;                                      // recording of the current world
+    std::size_t acts() const { return performed_; }           // commands of the user in it so far
+    // Recordings of the worlds before this one in which the user has done something, oldest first.
+    const std::vector<Input>& earlier() const { return earlier_; }
 
 private:
     // A state right after its step, before the script's and the user's commands.
@@ -58,6 +64,10 @@ private:
     void run_script();
     void perform_recorded();
     void branch();
+    void release_held();
+    void keep_recording();
+    void replay(std::uint64_t step);
+    std::size_t last_deed() const;
 
     SceneOptions options_;
     MakeRunner make_runner_;
@@ -65,6 +75,7 @@ private:
     LoadedScene subject_;
     std::optional<World> world_;
     Input input_;
+    std::vector<Input> earlier_;
     std::size_t performed_ = 0;  // commands of input_ so far; later ones are those of a future that was left
     std::uint64_t farthest_ = 0;
     std::vector<Kept> kept_;    // ascending by step

@@ -240,7 +240,11 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
     if (document.viewpoint) subject.viewpoint = *document.viewpoint;
     if (document.settings) subject.of_scene = *document.settings;
     if (document.duration > 0) subject.seconds = static_cast<double>(document.duration);
-    if (document.picture) subject.style = *document.picture;
+    const auto colored = [](const Body& body) { return body.color.has_value(); };
+    if (document.picture)
+        subject.style = *document.picture;
+    else if (std::ranges::any_of(subject.scene.bodies, colored))
+        subject.style.color = ShownQuantity::own;
     subject.events = std::move(document.events);
     return subject;
 }

@@ -244,7 +244,7 @@ DemoScene shatter(const DemoOptions& options) {
     }
     const vec3 low(-pit, 0, -pit), high(pit, 4 + spacing * side, pit);
     return {std::move(scene),
-            view_of(low, high, 30, 35),
+            view_of(low, high, 30, 20),
             low,
             high,
             7,

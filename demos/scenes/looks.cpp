@@ -22,6 +22,12 @@ PictureStyle by(ShownQuantity quantity, float high = 0, std::vector<Overlay> sho
     return {quantity, ShownMap::ember, ShownScale::automatic, {0, high}, std::move(show)};
 }
 
+PictureStyle lit(PictureStyle style, float azimuth, float elevation) {
+    style.sun_azimuth = azimuth;
+    style.sun_elevation = elevation;
+    return style;
+}
+
 const std::vector<Look>& looks() {
     using enum Overlay;
     static const std::vector<Look> all = {
@@ -36,7 +42,7 @@ const std::vector<Look>& looks() {
         {"dominoes", by(momentum, 100)},
         {"pile", by(momentum, 600)},
         {"mix", by(kinetic_energy, 3000)},
-        {"avalanche", by(momentum, 3000), 37},
+        {"avalanche", by(momentum, 3000)},
         {"assortment", by(body)},
         {"bins", by(body)},
         {"terrain", by(momentum, 15000), 46},
@@ -46,10 +52,10 @@ const std::vector<Look>& looks() {
         {"ragdolls", by(body), 43},
         {"pendulums", by(body, 0, {joints})},
         {"machine", by(momentum, 500, {joints})},
-        {"wrecking", by(speed, 12)},
+        {"wrecking", lit(by(speed, 12), -105, 42)},
         {"glass", by(speed, 12)},
-        {"shatter", by(body)},
-        {"drive", by(body)},
+        {"shatter", by(speed, 15)},
+        {"drive", by(own)},
         {"cars", by(speed, 14)},
         {"ring", by(contact_impulse, 260)},
         {"gables", by(contact_impulse, 260)},

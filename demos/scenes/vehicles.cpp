@@ -102,6 +102,18 @@ void add_gates(Scene& scene, const Course& c) {
 }
 
 // Adds loose obstacles: a wall of cartons, a row of barrels, some balls.
+// Painted bodies on dark tyres.
+void paint(Scene& scene) {
+    constexpr vec3 paints[] = {{0.74f, 0.16f, 0.12f}, {0.16f, 0.34f, 0.66f}};
+    for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
+        scene.bodies[scene.vehicles[i].chassis].color = paints[i % 2];
+        for (const Wheel& wheel : scene.vehicles[i].wheels) {
+            const Joint& axle = scene.joints[wheel.joint];
+            scene.bodies[axle.a == scene.vehicles[i].chassis ? axle.b : axle.a].color = vec3(0.16f);
+        }
+    }
+}
+
 Indices add_loose(Scene& scene) {
     Indices loose;
     const auto add = [&](Shape shape, vec3 position, float density) {
@@ -109,6 +121,9 @@ Indices add_loose(Scene& scene) {
         body.shape = std::move(shape);
         body.position = position;
         body.density = density;
+        body.color = std::holds_alternative<Box>(body.shape)        ? vec3(0.86f, 0.62f, 0.22f)
+                     : std::holds_alternative<Cylinder>(body.shape) ? vec3(0.20f, 0.52f, 0.50f)
+                                                                    : vec3(0.90f, 0.88f, 0.84f);
         scene.bodies.push_back(body);
         loose.push_back(scene.bodies.size() - 1);
     };
@@ -178,6 +193,7 @@ DemoScene drive(const DemoOptions&) {
     add_gates(scene, c);
     const Indices loose = add_loose(scene);
     const std::size_t cart = scene.vehicles[plain].chassis;
+    paint(scene);
 
     const vec3 low(-5, 0, -4), high(49, 4, 142);
     Viewpoint behind;  // of the car, which starts along z

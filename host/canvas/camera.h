@@ -14,6 +14,8 @@ struct Camera {
     float vertical_fov = 40;    // degrees
     float near_plane = 0.05f;   // m; capped at 1/20 of the distance to the target; the far plane is infinite
     bool orthographic = false;  // parallel projection, scaled to match the perspective one at the target
+
+    bool operator==(const Camera&) const = default;
 };
 
 }  // namespace scree::host

@@ -60,15 +60,18 @@ struct BodyTables {
     TableView slot_sides;    // uint, one per slot: 2 * contact + side (0 for body a, 1 for body b), or a joint with OF_JOINT
     TableView sleep_states;  // uint (shaders/physics/sleep/sleep.h), for ColorBy::rest and CanvasOptions::sleep
     TableView bounds;        // Bounds, for CanvasOptions::boxes and cells
-    TableView ids;           // uint, body id of each row, for ColorBy::body
+    TableView ids;           // uint, body id of each row, for ColorBy::body and own
+    TableView colors;        // vec4 of each body id: linear colour, 1; w 0: none. For ColorBy::own
     TableView joints;        // Joint, for CanvasOptions::joints
     std::uint32_t joint_count = 0;  // valid records in joints
 };
 
 // A triangle mesh in the body's frame, counterclockwise seen from outside.
 struct SolidMesh {
-    bool stretched = false;          // scaled by the body: x and z by its first size, y by its second; otherwise in m
-    std::vector<glm::vec4> corners;  // per triangle three corners of two vectors each: position, normal
+    bool stretched = false;  // scaled by the body: x and z by its first size, y by its second; otherwise in m
+    // Per triangle three corners of two vectors each: position, and the width of edges in m, 0: none; normal, and the distance to
+    // the edge of the face in m.
+    std::vector<glm::vec4> corners;
 };
 
 // Bodies grouped by shape, as row indices into BodyTables; fixed for the canvas's lifetime.

@@ -22,6 +22,7 @@ const std::array<BindingInfo, BINDINGS>& binding_infos() {
         all[BOUNDS] = {Source::bodies, &BodyTables::bounds, "bounds"};
         all[JOINTS] = {Source::bodies, &BodyTables::joints, "joints"};
         all[IDS] = {Source::bodies, &BodyTables::ids, "ids"};
+        all[COLORS] = {Source::bodies, &BodyTables::colors, "colors"};
         for (const Binding image : {SUN_MAP, SKY_MAP, GLYPHS, SCENE}) all[image] = {Source::image, nullptr, ""};
         return all;
     }();
@@ -45,7 +46,9 @@ bool reads(std::uint32_t binding, const CanvasOptions& options, ColorBy by) {
         case JOINTS:
             return options.joints;
         case IDS:
-            return by == ColorBy::body;
+            return by == ColorBy::body || by == ColorBy::own;
+        case COLORS:
+            return by == ColorBy::own;
         default:
             return true;
     }

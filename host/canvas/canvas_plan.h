@@ -35,9 +35,10 @@ enum Binding : std::uint32_t {
     BOUNDS,
     TINTS,  // the colour of each body, written on the device
     JOINTS,
-    IDS
+    IDS,
+    COLORS
 };
-constexpr std::uint32_t BINDINGS = IDS + 1;
+constexpr std::uint32_t BINDINGS = COLORS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables

@@ -89,9 +89,9 @@ std::optional<Enum> named(const std::vector<std::string>& names, std::string_vie
 }  // namespace
 
 const std::vector<std::string>& color_by_names() {
-    static const std::vector<std::string> names{"momentum",        "speed",    "spin",  "kinetic-energy",
-                                                "height",          "body",     "plain", "angular-momentum",
-                                                "contact-impulse", "contacts", "sleep", "material"};
+    static const std::vector<std::string> names{
+        "momentum",         "speed",           "spin",     "kinetic-energy", "height",   "body", "plain",
+        "angular-momentum", "contact-impulse", "contacts", "sleep",          "material", "own"};
     return names;
 }
 const std::vector<std::string>& color_map_names() {
@@ -106,17 +106,17 @@ std::optional<ColorMap> color_map_named(std::string_view name) {
 }
 
 std::string color_title(ColorBy by) {
-    static const char* const titles[] = {"momentum |p|", "speed |v|", "spin |ω|",          "kinetic energy",       "height",
-                                         "body",         "",          "spin momentum |L|", "contact impulse Σ|j|", "contacts",
-                                         "quiet for",    "material"};
+    static const char* const titles[] = {
+        "momentum |p|",         "speed |v|", "spin |ω|",  "kinetic energy", "height", "body", "", "spin momentum |L|",
+        "contact impulse Σ|j|", "contacts",  "quiet for", "material",       ""};
     return titles[static_cast<int>(by)];
 }
 std::string color_unit(ColorBy by) {
-    static const char* const units[] = {"kg m/s", "m/s", "rad/s", "J", "m", "", "", "kg m²/s", "N s", "", "s", ""};
+    static const char* const units[] = {"kg m/s", "m/s", "rad/s", "J", "m", "", "", "kg m²/s", "N s", "", "s", "", ""};
     return units[static_cast<int>(by)];
 }
 bool has_scale(ColorBy by) {
-    return by != ColorBy::body && by != ColorBy::plain && by != ColorBy::material;
+    return by != ColorBy::body && by != ColorBy::plain && by != ColorBy::material && by != ColorBy::own;
 }
 
 // As name_color() in shaders/render/coloring.h.

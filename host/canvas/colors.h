@@ -22,7 +22,8 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
     contact_impulse,   // sum of normal impulses of its contacts in a substep
     contacts,          // number of contacts, speculative ones included
     rest,              // sleep timer; sleeping bodies have the colour at 1
-    material
+    material,
+    own  // BodyTables::colors
 };
 // All but turbo are monotonic in lightness. ember falls, from a light neutral for 0 over yellow and red to violet; the
 // others rise.
@@ -31,6 +32,7 @@ enum class ColorMap { ember, plasma, inferno, viridis, cividis, turbo, batlow };
 struct Material {
     glm::vec3 nature{0};  // coefficients and density, as in shaders/render/frame.h
     std::string label;    // text in the legend
+    bool operator==(const Material&) const = default;
 };
 
 // The mapping of a quantity to colours; keep it fixed over a run so that colours are comparable between frames.
@@ -42,6 +44,7 @@ struct ColorScale {
     bool logarithmic = false;
     bool root = false;  // places grow with the square root, so that small values are seen beside large ones; low >= 0
     std::vector<Material> materials;  // distinguished materials, at most 8; a body takes the colour of the nearest
+    bool operator==(const ColorScale&) const = default;
 };
 
 const std::vector<std::string>& color_by_names();   // in the order of ColorBy
@@ -51,7 +54,7 @@ std::optional<ColorMap> color_map_named(std::string_view name);
 
 std::string color_title(ColorBy by);  // "momentum |p|"
 std::string color_unit(ColorBy by);   // "kg m/s"; empty where there is none
-bool has_scale(ColorBy by);           // whether there is a numeric range; false for body, plain and material
+bool has_scale(ColorBy by);           // whether there is a numeric range; false for body, plain, material and own
 // Colour of the n-th material or body (body colours repeat after 4096), linear RGB.
 glm::vec3 name_color(unsigned n);
 // Position of a value on the scale, clamped to 0..1.

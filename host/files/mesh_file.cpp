@@ -129,6 +129,11 @@ private:
         if (places.count > most_vertices - mesh_.vertices.size())
             source_.refuse(place + ": with it the scene has more than " + std::to_string(most_vertices) +
                            " vertices, a mesh of several nodes counted for each; write a simpler mesh");
+        const auto material = static_cast<std::size_t>(primitive.material);
+        if (primitive.material >= 0 && material < model_.materials.size() && !mesh_.color) {
+            const std::vector<double>& rgba = model_.materials[material].pbrMetallicRoughness.baseColorFactor;
+            if (rgba.size() >= 3) mesh_.color = glm::vec3(glm::dvec3(rgba[0], rgba[1], rgba[2]));
+        }
         const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
         for (std::size_t i = 0; i < places.count; ++i) {
             glm::vec3 at;

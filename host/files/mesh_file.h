@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@ struct MeshFile {
     std::vector<glm::vec3> vertices;    // in the file's units, node transforms applied
     std::vector<glm::uvec3> triangles;  // vertex indices, counter-clockwise seen from outside
     std::vector<std::size_t> groups{};  // first triangle of each group or object of an OBJ file
+    std::optional<glm::vec3> color{};   // base colour of the first material, linear; of meshes_of_gltf() alone
 };
 
 // Reads all triangles of a file with the extension .obj, .gltf, .glb or .stl; polygons are triangulated, materials and

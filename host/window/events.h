@@ -1,6 +1,7 @@
 // Window events, independent of the window system: pointer, buttons, keys, resizing.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace scree::host {
@@ -9,7 +10,7 @@ enum class EventKind { moved, pressed, released, scrolled, key_pressed, key_rele
 
 enum class Button { left, right, middle };
 
-// Key codes: upper-case ASCII for letters, digits and ' ' '.' ','; other keys from 256.
+// Key codes: upper-case ASCII for letters, digits and ' ' '.' ',' '+' '-' '/'; other keys from 256.
 enum class Key : int {
     space = ' ',
     escape = 256,
@@ -24,6 +25,7 @@ enum class Key : int {
     page_down,
     home,
     del,
+    f1,
     other
 };
 constexpr Key key_of(char character) {
@@ -36,8 +38,9 @@ struct Event {
     double amount = 0;    // scrolled: wheel clicks, > 0 away from the user
     Button button = Button::left;
     Key key = Key::other;
-    bool shift = false;
-    std::string file{};  // dropped: a path
+    bool shift = false, control = false;
+    std::uint64_t order = 0;  // of what the keyboard sent, for Window::forget_text()
+    std::string file{};       // dropped: a path
 };
 
 }  // namespace scree::host

@@ -7,6 +7,8 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
 #include <filesystem>
 #include <utility>
 
@@ -57,10 +59,70 @@ Key key_of_glfw(int code) {
             return Key::del;
         case GLFW_KEY_HOME:
             return Key::home;
+        case GLFW_KEY_F1:
+            return Key::f1;
+        case GLFW_KEY_EQUAL:
+        case GLFW_KEY_KP_ADD:
+            return key_of('+');
+        case GLFW_KEY_MINUS:
+        case GLFW_KEY_KP_SUBTRACT:
+            return key_of('-');
+        case GLFW_KEY_SLASH:
+            return key_of('/');
         default:
             return Key::other;
     }
 }
+
+// What the keyboard sent to the panel: a key, or a character.
+struct Typed {
+    int code = 0, place = 0, action = 0, modifiers = 0;  // as GLFW has them
+    unsigned character = 0;                              // 0: a key
+    std::uint64_t order = 0;
+    bool is_modifier() const { return code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER; }
+    // Whether the key does something itself instead of writing a character.
+    bool commands() const {
+        const bool with = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
+        return !is_modifier() && (code >= GLFW_KEY_ESCAPE || with);
+    }
+};
+
+// Dear ImGui sees which keys are down when a picture begins: a key that was pressed and released since the last would be lost,
+// and the order of keys and characters. What must be seen apart is therefore given to different pictures.
+class Keyboard {
+public:
+    std::uint64_t add(Typed typed) {
+        typed.order = ++last_;
+        waiting_.push_back(typed);
+        return last_;
+    }
+    void forget_text(std::uint64_t key) {
+        std::erase_if(waiting_, [&](const Typed& typed) { return typed.character != 0 && typed.order == key + 1; });
+    }
+    void give(GLFWwindow* window) {
+        std::vector<int> changed;
+        bool wrote = false, commanded = false;
+        for (; !waiting_.empty(); waiting_.pop_front()) {
+            const Typed& next = waiting_.front();
+            if (next.character != 0) {
+                if (commanded) return;
+                ImGui_ImplGlfw_CharCallback(window, next.character);
+                wrote = true;
+                continue;
+            }
+            const bool pressed = next.action == GLFW_PRESS, commands = next.commands();
+            if (commands && (std::ranges::count(changed, next.code) != 0 || (pressed && wrote))) return;
+            if (next.is_modifier() && commanded) return;
+            ImGui_ImplGlfw_KeyCallback(window, next.code, next.place, next.action, next.modifiers);
+            if (commands) changed.push_back(next.code);
+            commanded = commanded || (commands && pressed);
+        }
+    }
+
+private:
+    std::deque<Typed> waiting_;
+    std::uint64_t last_ = 0;
+};
 
 }  // namespace
 
@@ -85,6 +147,8 @@ struct Window::Impl {
     GLFWwindow* handle;
     std::vector<Event> events;
     double x = 0, y = 0;  // pointer position, pixels
+    Keyboard keyboard;
+    float text_scale = 0;
     std::unique_ptr<Swapchain> swapchain;
     std::unique_ptr<PanelPass> panel;
     VulkanObjectPool objects;
@@ -101,25 +165,23 @@ struct Window::Impl {
     void moved(double to_x, double to_y);
     bool is_over_panel() const;
     void clicked(int button, int action, int modifiers);
-    void typed(int code, int action, int modifiers);
+    void typed(int code, int place, int action, int modifiers);
+    void set_text_scale(float scale);
 };
 
 Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
     : device(std::move(opened)), handle(window), objects(device) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // do not write imgui.ini
-    if (std::filesystem::exists(SCREE_FONT)) ImGui::GetIO().Fonts->AddFontFromFileTTF(SCREE_FONT, 15);
-    ImGui::GetStyle().WindowRounding = 5;
-    ImGui::GetStyle().FrameRounding = 3;
     swapchain = std::make_unique<Swapchain>(device, [this] {
         VkSurfaceKHR surface = VK_NULL_HANDLE;
         check(glfwCreateWindowSurface(device->instance(), handle, nullptr, &surface), "making the window's surface");
         return surface;
     });
-    panel = std::make_unique<PanelPass>(device, swapchain->format());
+    set_text_scale(1);
     make_commands();
+    ImGui_ImplGlfw_InitForVulkan(handle, false);  // listen() passes on what it needs
     listen();
-    ImGui_ImplGlfw_InitForVulkan(handle, true);  // chains to the callbacks installed above
 }
 
 Window::Impl::~Impl() {
@@ -129,6 +191,30 @@ Window::Impl::~Impl() {
     if (ImGui::GetIO().BackendPlatformUserData != nullptr) ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
     glfwDestroyWindow(handle);
+}
+
+// Letters are drawn anew at each size, with those of the legend's titles.
+void Window::Impl::set_text_scale(float scale) {
+    if (scale == text_scale) return;
+    text_scale = scale;
+    device->settle();
+    panel.reset();
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    fonts.Clear();
+    ImFontGlyphRangesBuilder letters;
+    letters.AddRanges(fonts.GetGlyphRangesDefault());
+    letters.AddText("ωΣµ·⁰¹²³⁴⁵⁶⁷⁸⁹⁻");
+    ImVector<ImWchar> ranges;
+    letters.BuildRanges(&ranges);
+    const float size = std::round(15 * scale);
+    if (std::filesystem::exists(SCREE_FONT)) fonts.AddFontFromFileTTF(SCREE_FONT, size, nullptr, ranges.Data);
+    panel = std::make_unique<PanelPass>(device, swapchain->format());  // makes the letters
+    ImGuiStyle style;
+    ImGui::StyleColorsDark(&style);
+    style.WindowRounding = 5;
+    style.FrameRounding = 3;
+    style.ScaleAllSizes(scale);
+    ImGui::GetStyle() = style;
 }
 
 void Window::Impl::make_commands() {
@@ -181,23 +267,35 @@ void Window::Impl::clicked(int button, int action, int modifiers) {
     events.push_back(event);
 }
 
-void Window::Impl::typed(int code, int action, int modifiers) {
-    if (action == GLFW_REPEAT || (action == GLFW_PRESS && ImGui::GetIO().WantTextInput)) return;
+void Window::Impl::typed(int code, int place, int action, int modifiers) {
+    if (action == GLFW_REPEAT) return;
+    const std::uint64_t order = keyboard.add({.code = code, .place = place, .action = action, .modifiers = modifiers});
+    if (action == GLFW_PRESS && code != GLFW_KEY_ESCAPE && ImGui::GetIO().WantTextInput) return;
     Event event{.kind = action == GLFW_PRESS ? EventKind::key_pressed : EventKind::key_released, .x = x, .y = y};
     event.key = key_of_glfw(code);
     event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    event.control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    event.order = order;
     events.push_back(event);
 }
 
 void Window::Impl::listen() {
     glfwSetWindowUserPointer(handle, this);
     glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double to_x, double to_y) { of(window).moved(to_x, to_y); });
-    glfwSetMouseButtonCallback(
-        handle, [](GLFWwindow* window, int button, int action, int modifiers) { of(window).clicked(button, action, modifiers); });
-    glfwSetKeyCallback(
-        handle, [](GLFWwindow* window, int code, int, int action, int modifiers) { of(window).typed(code, action, modifiers); });
-    glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double amount) {
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* window, int button, int action, int modifiers) {
+        of(window).clicked(button, action, modifiers);
+        ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
+    });
+    glfwSetKeyCallback(handle, [](GLFWwindow* window, int code, int place, int action, int modifiers) {
+        of(window).typed(code, place, action, modifiers);
+    });
+    glfwSetCharCallback(handle,
+                        [](GLFWwindow* window, unsigned character) { of(window).keyboard.add({.character = character}); });
+    glfwSetWindowFocusCallback(handle, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetCursorEnterCallback(handle, ImGui_ImplGlfw_CursorEnterCallback);
+    glfwSetScrollCallback(handle, [](GLFWwindow* window, double across, double amount) {
         Impl& in = of(window);
+        ImGui_ImplGlfw_ScrollCallback(window, across, amount);
         if (!in.is_over_panel()) in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
     });
     glfwSetDropCallback(handle, [](GLFWwindow* window, int count, const char** files) {
@@ -244,12 +342,19 @@ std::vector<Event> Window::poll(double seconds) {
     return std::exchange(interior_->events, {});
 }
 
-void Window::begin_panel() {
+void Window::begin_panel(bool takes_keys) {
+    if (takes_keys) interior_->keyboard.give(interior_->handle);
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
 }
 void Window::end_panel() {
     ImGui::Render();
+}
+void Window::forget_text(const Event& key) {
+    interior_->keyboard.forget_text(key.order);
+}
+void Window::set_text_scale(float scale) {
+    interior_->set_text_scale(scale);
 }
 
 // Copies the picture to the whole target and draws the panel over it.
@@ -296,12 +401,13 @@ void Window::Impl::submit(const Swapchain::Target& target) {
     check(vk.vkResetFences(device->handle(), 1, &fence), "vkResetFences");
 }
 
-bool Window::show(Canvas& canvas, const View& view) {
+bool Window::show(Canvas& canvas, const View& view, bool anew) {
     Impl& in = *interior_;
     auto& drawing = dynamic_cast<VulkanCanvas&>(canvas);
     const int across = width(), down = height();
     if (across == 0 || down == 0 || across < drawing.options().width || down < drawing.options().height) return false;
-    const VkImage picture = drawing.draw_there(view.camera, view.scale, view.caption, view.low, view.high);
+    const VkImage picture =
+        anew ? drawing.draw_there(view.camera, view.scale, view.caption, view.low, view.high) : drawing.picture_there();
     const std::optional<Swapchain::Target> target = in.swapchain->acquire(across, down);
     if (!target) return false;
     in.record(picture, *target, drawing.options().width, drawing.options().height);

@@ -48,12 +48,16 @@ public:
     // Events since the last call, without those that the panel consumed. Blocks up to `seconds` for the first one.
     std::vector<Event> poll(double seconds);
 
-    // Call ImGui's functions for the panel between these two.
-    void begin_panel();
+    // Call ImGui's functions for the panel between these two. The panel gets the keys in their order, over several pictures if
+    // need be, so that none is lost however few pictures are drawn; without `takes_keys` they wait for the next call.
+    void begin_panel(bool takes_keys = true);
     void end_panel();
+    void forget_text(const Event& key);  // the panel does not get what this press would write
+    void set_text_scale(float scale);    // of the panel; 1: letters of 15 pixels
     // Draws with the canvas (a Vulkan canvas on this device, of this size or smaller: it is enlarged) and presents the picture
-    // with the panel over it. Returns false if nothing was presented: minimised, or resized meanwhile.
-    bool show(Canvas& canvas, const View& view);
+    // with the panel over it; unless `anew`, the picture that the canvas drew last. Returns false if nothing was presented:
+    // minimised, or resized meanwhile.
+    bool show(Canvas& canvas, const View& view, bool anew = true);
 
 private:
     struct Impl;

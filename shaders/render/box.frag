@@ -32,6 +32,9 @@ void main() {
     float edge = shown * clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
     // Lighter edges, and a tone per axis that distinguishes faces in the shade.
     float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
+    vec3 inside = size - abs(own);
+    float border = axis == 0 ? min(inside.y, inside.z) : axis == 1 ? min(inside.x, inside.z) : min(inside.x, inside.y);
+    tone *= 1.0 - seam_at(border, pixel, 2.0 * smallest) * (1.0 - 0.5 * shown);
     vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.12 * color.a * color.a);
     out_color = finished(hazed(shaded, length(point)));
 }

@@ -119,4 +119,11 @@ vec4 finished(vec3 color) {
     return vec4(shown, frame.toward_sky.w > 1.5 ? 1.0 : sqrt(dot(shown, vec3(0.2126, 0.7152, 0.0722))));
 }
 
+// How much a surface is darkened beside an edge, so that bodies that touch are told apart where edges are too narrow to be seen
+// by their light. All in m: distance to the edge, width of a pixel, the thinnest extent. None on bodies of few pixels.
+float seam_at(float edge, float pixel, float thinnest) {
+    float room = clamp(0.2 * thinnest / pixel - 0.4, 0.0, 1.0);
+    return 0.42 * room * (1.0 - smoothstep(0.4, 1.5, edge / pixel));
+}
+
 #endif

@@ -9,6 +9,7 @@ layout(location = 1) out vec3 out_normal;  // in the body's frame
 layout(location = 2) out vec3 out_own;     // in the body's frame, in half sizes
 layout(location = 3) flat out vec4 out_turn;
 layout(location = 4) flat out vec4 out_color;  // w: position on the colour scale
+layout(location = 5) out vec2 out_edge;        // distance to the edge of a hull's face, width of its edges; 0: none, m
 
 // The depth prepass and the shading pass must give equal positions.
 invariant gl_Position;
@@ -23,6 +24,7 @@ void main() {
     Pose pose = poses[at.body];
     out_point = pose.position - frame.eye.xyz + turned(pose.orientation, corner.point);
     out_normal = corner.normal;
+    out_edge = corner.edge;
     out_own = t.shape == SHAPE_HULL || t.shape == SHAPE_TRIANGLE ? vec3(0.0) : corner.point / t.size.x;
     out_turn = pose.orientation;
     out_color = tints[at.body];

@@ -16,6 +16,7 @@ layout(std430, set = 0, binding = 20) writeonly buffer TintTable {
 const vec3 STONE = vec3(0.40, 0.385, 0.36);
 const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
 const vec3 PLAIN = vec3(0.62, 0.33, 0.13);
+const vec3 UNCOLORED = vec3(0.55, 0.53, 0.50);
 
 layout(std430, set = 0, binding = 12) readonly buffer ImpulseTable {
     vec4 impulses[];  // ContactImpulse
@@ -31,6 +32,9 @@ layout(std430, set = 0, binding = 18) readonly buffer RestTable {
 };
 layout(std430, set = 0, binding = 22) readonly buffer IdTable {
     uint ids[];
+};
+layout(std430, set = 0, binding = 23) readonly buffer ColorTable {
+    vec4 colors[];  // by id; w 0: none
 };
 
 bool sleeps(uint body) {
@@ -99,11 +103,16 @@ uint material_of(uint body) {
 
 vec4 full_color(uint body) {
     uint motion = properties[body].motion & 3u;
+    if (uint(frame.scale.w) == COLOR_BY_OWN) {
+        vec4 own = colors[ids[body]];
+        if (own.w > 0.5) return vec4(own.rgb, 0.0);
+    }
     if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
     if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
     uint by = uint(frame.scale.w);
     if (by == COLOR_BY_NOTHING) return vec4(PLAIN, 0.0);
     if (by == COLOR_BY_BODY) return vec4(name_color(ids[body]), 0.0);
+    if (by == COLOR_BY_OWN) return vec4(UNCOLORED, 0.0);
     if (by == COLOR_BY_MATERIAL) return vec4(name_color(material_of(body)), 0.0);
     float q = quantity(by, body);
     float x = frame.scale.z > 1.5 ? sqrt(max(q, 0.0)) : frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;

@@ -123,6 +123,59 @@ TEST_CASE("what was done after the last step is done again") {
     REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
 }
 
+TEST_CASE("what was done before a restart and in another scene is kept") {
+    Session session(options_of("stack"), on_cpu);
+    for (int i = 0; i < 5; ++i) session.step();
+    session.reset();  // nothing was done
+    REQUIRE(session.earlier().empty());
+    session.perform(Add{});
+    for (int i = 0; i < 5; ++i) session.step();
+    const std::uint64_t first = session.world().state_hash();
+    session.reset();
+    session.perform(Explode{vec3(0), 50, 3});
+    session.step();
+    const std::uint64_t second = session.world().state_hash();
+    session.open("dominoes");
+    REQUIRE(session.earlier().size() == 2);
+    REQUIRE(session.acts() == 0);
+    REQUIRE(replayed(session.earlier()[0], options_of("stack")) == first);
+    REQUIRE(replayed(session.earlier()[1], options_of("stack")) == second);
+    session.perform(Add{});
+    REQUIRE_THROWS(session.open("no such demo"));
+    REQUIRE(session.earlier().size() == 2);
+}
+
+TEST_CASE("commands are taken back one after the other, a whole drag at once") {
+    Session session(options_of("stack"), on_cpu);
+    REQUIRE_FALSE(session.undo());
+    for (int i = 0; i < 10; ++i) session.step();
+    const std::uint64_t at_10 = session.world().state_hash();
+    session.perform(Explode{vec3(0), 50, 3});
+    for (int i = 0; i < 70; ++i) session.step();  // a state is kept meanwhile
+    const std::uint64_t at_80 = session.world().state_hash();
+    session.perform(Grab{0, 5, vec3(0), vec3(0, 5, 0)});
+    for (int i = 0; i < 9; ++i) {
+        session.perform(Drag{0, vec3(0, static_cast<float>(i), 0)});
+        session.step();
+    }
+    session.perform(Release{0});
+    session.step();
+    REQUIRE(session.undo());
+    REQUIRE(session.world().steps() == 80);
+    REQUIRE(session.farthest_step() == 80);
+    REQUIRE(session.world().state_hash() == at_80);
+    REQUIRE(session.acts() == 1);
+    session.perform(Add{});  // before a step
+    REQUIRE(session.undo());
+    REQUIRE(session.world().state_hash() == at_80);
+    REQUIRE(session.undo());
+    REQUIRE(session.world().state_hash() == at_10);
+    REQUIRE(session.input().acts.empty());
+    REQUIRE_FALSE(session.undo());
+    session.step();
+    REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
+}
+
 TEST_CASE("a session goes back to any moment with the same bits, and on from there") {
     for (const char* name : {"stack", "dominoes"}) {
         Session session(options_of(name), on_cpu);

@@ -66,6 +66,25 @@ TEST_CASE("a ray through a pixel meets what is seen there") {
     REQUIRE(upper.along.y > eye.forward().y);
 }
 
+TEST_CASE("the camera stays above a level ground, however it is turned, moved and brought nearer") {
+    Played played;
+    const auto drag = [&](Button button, double down) {
+        played.at(host::EventKind::pressed, {5, 5}, button);
+        played.at(host::EventKind::moved, {5, 5 + down}, button);
+        played.at(host::EventKind::released, {5, 5 + down}, button);
+        REQUIRE(played.hands.eye().position().y > 0);
+        REQUIRE(played.hands.eye().target().y >= 0);
+    };
+    drag(Button::right, -2000);
+    drag(Button::middle, -2000);
+    for (int i = 0; i < 30; ++i) {
+        played.hands.on({.kind = host::EventKind::scrolled, .amount = -1});
+        REQUIRE(played.hands.eye().position().y > 0);
+    }
+    drag(Button::right, 200);
+    REQUIRE(played.hands.eye().position().y > 1);  // and turns up again
+}
+
 static std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
     return ray_distance(shape, position, orientation, ray.from, ray.along);
 }

@@ -57,6 +57,25 @@ TEST_CASE("imports: a glTF scene falls, and its driven hinge turns to its target
     CHECK(world.joint(0).coordinates[3] == Approx(0.5).margin(0.01));
 }
 
+TEST_CASE("imports: a glTF mesh that collides has the base colour of its first material") {
+    Case file;
+    // Four points of a tetrahedron, as a triangle strip.
+    const auto scene = file.load("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_physics_rigid_bodies"],
+        "buffers": [{"byteLength": 48,
+            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.2140411, 0, 1]}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5, "material": 0}]}],
+        "nodes": [{"mesh": 0, "extensions": {"KHR_physics_rigid_bodies": {"motion": {"mass": 1},
+            "collider": {"geometry": {"mesh": 0, "convexHull": true}}}}}],
+        "scenes": [{"nodes": [0]}], "scene": 0})")
+                           .scene;
+    REQUIRE(scene.bodies.size() == 1);
+    REQUIRE(scene.bodies[0].color);
+    CHECK(glm::length(*scene.bodies[0].color - vec3(1, 0.5f, 0)) < 1e-3f);
+}
+
 TEST_CASE("imports: what is wrong with a glTF scene is refused with its JSON pointer") {
     Case file;
     std::ostringstream whole;

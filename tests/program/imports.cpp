@@ -16,7 +16,7 @@ namespace {
 const std::string dropped = R"(<mujoco>
 <worldbody>
 <geom name="floor" type="plane" size="1 1 1"/>
-<body name="ball" pos="0 0 1"><freejoint/><geom size="0.2" rgba="1 0 0 1"/></body>
+<body name="ball" pos="0 0 1"><freejoint/><geom size="0.2" rgba="1 0 0 1" user="1"/></body>
 </worldbody>
 </mujoco>
 )";
@@ -29,11 +29,12 @@ TEST_CASE("program: an MJCF file is run, and exported as the same scene") {
     const Outcome run = run_scree("run " + robot + " --backend cpu --steps 90 --quiet --report -");
     INFO(run.errors);
     REQUIRE(run.status == 0);
-    CHECK(says(run.errors, "note: " + robot + ":4: geom: rgba: is left out"));
+    CHECK(says(run.errors, "note: " + robot + ":4: geom: user: is left out"));
     const Outcome written = run_scree("export " + robot + " -o " + scene);
     REQUIRE(written.status == 0);
     const json document = json::parse(place.read("robot.json"));
     CHECK(document.at("bodies").at(1).at("name") == "ball");
+    CHECK(document.at("bodies").at(1).at("color") == json({1, 0, 0}));
     CHECK(document.at("bodies").at(1).at("position").at(1) == 1);  // up is y
     const Outcome again = run_scree("run " + scene + " --backend cpu --steps 90 --quiet --report -");
     CHECK(json::parse(again.output).at("state_hash") == json::parse(run.output).at("state_hash"));
@@ -46,7 +47,7 @@ TEST_CASE("program: with --strict a note is an error, and a malformed robot one 
     const std::string robot = place.write("robot.xml", dropped);
     const Outcome strict = run_scree("run " + robot + " --strict --steps 1");
     CHECK(strict.status == 2);
-    CHECK(says(strict.errors, robot + ":4: geom: rgba: is left out"));
+    CHECK(says(strict.errors, robot + ":4: geom: user: is left out"));
     const std::string broken = place.write("broken.urdf", "<robot name='r'>\n<link name='a'>\n</robot>");
     const Outcome refused = run_scree("run " + broken);
     CHECK(refused.status == 2);

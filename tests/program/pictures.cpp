@@ -47,6 +47,28 @@ std::string scene_with_camera(const std::string& camera) {
 
 }  // namespace
 
+TEST_CASE("program: the lines for data sets of help and guide work in an empty folder", "[program]") {
+    const std::string few = " --bodies 20 --seconds 0.1 --size 64x48 --backend cpu --quiet";
+    for (const std::string line : {"run pile --frames out --channels depth,ids,normals,flow --cameras out/cameras.json",
+                                   "run pile --frames out/a/b --cameras out/a/b/cameras.json --report out/a/b/report.json",
+                                   "run pile --frames out --trajectory out/run.npz --export out/run.glb --save out/end.json"}) {
+        const Place place;
+        const Outcome run = run_scree(line + few, "cd '" + place.path().string() + "' &&");
+        INFO(line << "\n" << run.errors);
+        REQUIRE(run.status == 0);
+        REQUIRE(std::filesystem::exists(place / (says(line, "/a/b") ? "out/a/b/frame_000003.png" : "out/frame_000003.png")));
+        if (says(line, "cameras.json")) {
+            const json cameras = json::parse(place.read(says(line, "/a/b") ? "out/a/b/cameras.json" : "out/cameras.json"));
+            REQUIRE_FALSE(cameras.empty());
+        }
+    }
+    const Place place;  // of a run that is refused nothing is left
+    const std::string there = "cd '" + place.path().string() + "' &&";
+    REQUIRE(run_scree("run pile --frames out/a --cameras elsewhere/cameras.json" + few, there).status == 2);
+    REQUIRE(run_scree("run wal --frames out/a" + few, there).status == 2);
+    REQUIRE(std::filesystem::is_empty(place.path()));
+}
+
 TEST_CASE("program: raw frames go to the standard output, and words elsewhere", "[program]") {
     const Outcome raw = run_scree("run rest " + small + "--steps 2 --fps 60 --raw -");
     INFO(raw.errors);
@@ -395,4 +417,54 @@ TEST_CASE("program: the cameras of pictures are told so that a point is found at
     REQUIRE(seen({0, 2, 0}).second < 30);  // up is up
     REQUIRE(seen({5, 1, -3}).first > 50);  // and right is right
     require_refused("rest --cameras c.json", {"--cameras", "no pictures are asked for"});
+}
+
+TEST_CASE("program: bodies with colours are shown in them, unless another quantity is asked for", "[program]") {
+    const Place place;
+    const auto scene = [](const std::string& color, const std::string& style) {
+        return R"({"bodies": [{"shape": {"sphere": {"radius": 0.5}}, "position": [0, 2, 0])" + color + "}]" + style +
+               R"(, "camera": {"eye": [0, 2, 3], "target": [0, 2, 0]}})";
+    };
+    const std::string red = place.write("red.json", scene(R"(, "color": [1, 0, 0])", ""));
+    const std::string plain = place.write("plain.json", scene("", ""));
+    const std::string asked =
+        place.write("asked.json", scene(R"(, "color": [1, 0, 0])", R"(, "picture": {"color": "momentum"})"));
+    const std::string rest = " --steps 1 --no-legend --no-caption " + small;
+    const std::string shown = picture_of(red + rest);
+    CHECK(shown == picture_of(red + " --color own" + rest));
+    CHECK(shown == picture_of(asked + " --color own" + rest));
+    const std::string by_momentum = picture_of(plain + rest);
+    CHECK(shown != by_momentum);
+    CHECK(picture_of(asked + rest) == by_momentum);
+    CHECK(picture_of(red + " --color momentum" + rest) == by_momentum);
+    const std::string wrong = place.write("wrong.json", scene(R"(, "color": [1, 0, 2])", ""));
+    require_refused(wrong + " --steps 1", {"/bodies/0/color/2", "between 0 and 1"});
+}
+
+TEST_CASE("program: one moment or a range of them is drawn, and the run ends there", "[program]") {
+    const Place place;
+    const auto run = [&](const std::string& folder, const std::string& options) {
+        const Outcome outcome = run_scree("run stack " + small + options + " --frames '" + (place / folder).string() +
+                                          "' --no-caption --color-range 0:1000 --quiet --report -");
+        INFO(outcome.errors);
+        REQUIRE(outcome.status == 0);
+        return json::parse(outcome.output);
+    };
+    const json all = run("all", "--seconds 0.5 --fps 10");
+    REQUIRE(all.at("steps") == 30);
+    const json one = run("one", "--frame-at 0.3 --fps 10");
+    CHECK(one.at("steps") == 18);
+    CHECK(place.read("one/frame_000000.png") == place.read("all/frame_000003.png"));
+    CHECK_FALSE(std::filesystem::exists(place / "one/frame_000001.png"));
+    const json some = run("some", "--frame-range 0.1:0.3 --seconds 0.5 --fps 10");
+    CHECK(some.at("steps") == 30);
+    CHECK(place.read("some/frame_000000.png") == place.read("all/frame_000001.png"));
+    CHECK(place.read("some/frame_000002.png") == place.read("all/frame_000003.png"));
+    CHECK_FALSE(std::filesystem::exists(place / "some/frame_000003.png"));
+    const std::string to = " --frames '" + (place / "none").string() + "' " + small;
+    require_refused("stack --frame-at 3 --seconds 1" + to, {"--frame-at 3", "the run ends at 1 s"});
+    require_refused("stack --frame-at -1" + to, {"--frame-at", "between 0 and 1e6 s"});
+    require_refused("stack --frame-range 2:1" + to, {"--frame-range", "FROM < TO"});
+    require_refused("stack --frame-at 1", {"--frame-at", "no pictures are asked for"});
+    CHECK_FALSE(std::filesystem::exists(place / "none"));
 }

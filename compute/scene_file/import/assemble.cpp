@@ -59,6 +59,8 @@ Placed give_shape(Body& body, const Shapes& shapes, const std::vector<std::optio
             break;
         }
     set_material(body, usual->material);
+    for (const Geometry* one : shapes.geometries)
+        if (!body.color) body.color = one->color;
     body.filter = filters[usual->collides_as];
     if (!usual->solid) body.role = usual->sensor ? Role::sensor : Role::drawn;
     if (shapes.geometries.size() == 1) {
@@ -118,6 +120,7 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
                   .shape = one.terrain ? *one.terrain : whole_shape(one.shape)};
         place(body, placed);
         set_material(body, one.material);
+        body.color = one.color;
         body.filter = filters[one.collides_as];
         if (!one.solid) body.role = one.sensor ? Role::sensor : Role::drawn;
         if (auto* plane = std::get_if<Plane>(&body.shape)) {

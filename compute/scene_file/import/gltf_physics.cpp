@@ -73,6 +73,15 @@ private:
     Model model_;
 };
 
+// Encodes linear light, IEC 61966-2-1.
+vec3 srgb_of(vec3 linear) {
+    for (int k = 0; k < 3; ++k) {
+        const float x = std::clamp(linear[k], 0.0f, 1.0f);
+        linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+    }
+    return linear;
+}
+
 // A node that a list names.
 std::size_t Gltf::child_of(const GltfValue& list, std::size_t i) const {
     const nlohmann::json& child = list.at(i).json();
@@ -150,6 +159,7 @@ void Gltf::add_shape(GltfValue shape, const glm::dmat4& frame, Geometry like, Mo
 void Gltf::collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into) {
     host::MeshFile one = meshes()[mesh];
     if (one.triangles.empty()) return;
+    if (!into.color) into.color = one.color;
     if (into.vertices.size() + one.vertices.size() > most_vertices)
         mesh_list_->at(mesh).refuse("with it colliders have more than 100000000 vertices, a mesh of several counted for each");
     map_mesh({dmat3(frame), dvec3(frame[3])}, one.vertices, one.triangles);
@@ -183,6 +193,7 @@ void Gltf::add_surface(const host::MeshFile& mesh, const Geometry& like) {
     body.position = vec3(like.placed.position);
     body.orientation = single_quaternion(like.placed.turn);
     set_material(body, like.material);
+    body.color = like.color;
     surfaces_.push_back(std::move(body));
 }
 
@@ -201,6 +212,7 @@ void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
     else
         collect(mesh, frame, file);
     if (file.triangles.empty()) geometry.refuse("its mesh has no triangles");
+    if (file.color) like.color = srgb_of(*file.color);
     if (!hull && node.body == world_body && like.solid) {
         if (like.collides_as != 0) geometry.note("", "a static mesh's filter is left out; it meets everything");
         return add_surface(file, like);

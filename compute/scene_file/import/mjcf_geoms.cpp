@@ -219,7 +219,9 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
         const double factor = geom.has("mass") ? given / mass.mass : density;
         body.mass = sum_of(body.mass, placed_mass(scaled_mass(mass, factor), geometry.placed));
     }
-    geom.ignore({"material", "rgba"}, "is left out; colours show momentum, or what --color says");
+    if (const std::vector<double> rgba = geom.numbers("rgba", 3, 4); !rgba.empty())
+        geometry.color = glm::clamp(vec3(dvec3(rgba[0], rgba[1], rgba[2])), 0.0f, 1.0f);
+    geom.ignore({"material"}, "is left out; pictures show the geom's own rgba, or what --color says");
     geom.ignore({"user", "fitscale"}, "is left out; no motion depends on it");
     geom.finish();
     const bool shown = geometry.solid || !compiler_.discard_visual;

@@ -24,6 +24,7 @@ struct Geometry {
     bool solid = true;                       // else only drawn, or
     bool sensor = false;                     // a sensor
     Material material{};
+    std::optional<vec3> color{};  // sRGB
     std::size_t collides_as = 0;  // class of Model::collides
 };
 

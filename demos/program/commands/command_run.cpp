@@ -96,6 +96,15 @@ void require_steps_for_pictures(const RunOptions& options, float rate) {
         fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps, rate));
 }
 
+// A picture that is asked for must be of the run.
+void require_moments(const RunOptions& options, const LoadedScene& subject) {
+    const Settings settings = subject.settings(options.scene);
+    const double end = options.scene.step_count(subject.seconds, settings.rate) / static_cast<double>(settings.rate);
+    if (options.pictures.from <= end + 0.5 / static_cast<double>(settings.rate)) return;
+    throw UsageError(fmt::format("--frame-{} {:g}: the run ends at {:g} s; ask for more --seconds",
+                                 options.pictures.until == options.pictures.from ? "at" : "range", options.pictures.from, end));
+}
+
 // Short steps are submitted in batches when no step is recorded or drawn, so that the device does not wait for the
 // host. The report then has the batch's mean for each of its steps.
 constexpr int most_at_once = 8;  // timed steps are at multiples of this
@@ -401,6 +410,7 @@ int run(RunOptions options) {
     LoadedScene subject = load(options);
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
     require_sense(options.copies, subject);
+    require_moments(options, subject);
     const VaryCopy vary = vary_of(options.copies, options.scene);
     if (options.copies.copies) subject.promise.reset();  // it is of the scene alone
     if (options.played) {                                // replay the commands; the demo's promise does not apply
@@ -526,6 +536,7 @@ void make_silent(RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command);
+    const OutputFolder frames(options.pictures.frames);
     require_distinct_outputs(options);
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
@@ -541,6 +552,8 @@ int run(const CLI::App& command, RunOptions options) {
     }
     options.advises = !options.quiet || !options.report.empty();
     options.draws = options.pictures.wanted();
+    if (options.pictures.until && !options.scene.steps && !options.scene.seconds)
+        options.scene.seconds = std::max(*options.pictures.until, 1e-3);
     if (!options.distributed) return run(options);
     require_sense_on_ranks(command, options);
     Neighbours neighbours;

@@ -71,6 +71,8 @@ struct PictureOptions {
     int width = 1280, height = 720;
     int bits = 8;  // per channel
     double fps = 30;
+    double from = 0;              // s of simulated time, of the first picture
+    std::optional<double> until;  // of the last; none: the end of the run
     CameraOptions camera;
     // None: the scene's (demos/film/style.h).
     std::optional<std::string> color, color_map, color_scale;

@@ -89,6 +89,21 @@ void set_blur(PictureOptions& options, const std::string& word) {
     options.shutter_samples = static_cast<int>(samples);
 }
 
+void set_moment(PictureOptions& options, const std::string& word) {
+    options.from = number_of(word, "--frame-at");
+    if (!(options.from >= 0 && options.from <= 1e6))
+        throw CLI::ValidationError("--frame-at", "must be between 0 and 1e6 s, is " + word);
+    options.until = options.from;
+}
+
+void set_moments(PictureOptions& options, const std::string& word) {
+    const auto [from, until] = halves(word, ':', "--frame-range", "FROM:TO");
+    options.from = number_of(from, "--frame-range");
+    options.until = number_of(until, "--frame-range");
+    if (!(options.from >= 0 && options.from < *options.until && *options.until <= 1e6))
+        throw CLI::ValidationError("--frame-range", "must be FROM:TO with 0 <= FROM < TO <= 1e6 s, is " + word);
+}
+
 using Set = std::function<void(const std::string&)>;
 
 void add_camera(CLI::App& command, CameraOptions& options) {
@@ -158,6 +173,19 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
     command.add_option("--fps", options.fps, "Frames per simulated second, at most --rate. Default: 30.")
         ->check(between(0.1, 1000.0))
         ->group(group);
+    CLI::Option* const at = command
+                                .add_option_function<std::string>(
+                                    "--frame-at", Set([&options](const std::string& word) { set_moment(options, word); }),
+                                    "One picture alone, of this simulated time, s, as frame_000000.png. Without "
+                                    "--seconds and --steps the run ends there.")
+                                ->group(group);
+    command
+        .add_option_function<std::string>("--frame-range",
+                                          Set([&options](const std::string& word) { set_moments(options, word); }),
+                                          "Pictures from one simulated time to another alone, FROM:TO, s. Without --seconds and "
+                                          "--steps the run ends there.")
+        ->excludes(at)
+        ->group(group);
 }
 
 }  // namespace
@@ -185,7 +213,8 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option("--color", options.color,
                     "Quantity shown by colour. contact-impulse: sum over the body's contacts in one substep; sleep: how long the "
                     "body has "
-                    "been still; material: friction, restitution and density. Default: the scene's, mostly momentum.")
+                    "been still; material: friction, restitution and density; own: the colours of the scene file. Default: the "
+                    "scene's, mostly momentum.")
         ->check(one_of(color_words()))
         ->group(group);
     command

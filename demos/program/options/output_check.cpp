@@ -57,4 +57,17 @@ void require_distinct(std::initializer_list<NamedOutput> outputs) {
     }
 }
 
+OutputFolder::OutputFolder(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (std::filesystem::path at = folder; !at.empty() && !std::filesystem::exists(at, ignored); at = at.parent_path())
+        made_.push_back(at);
+    std::filesystem::create_directories(folder, ignored);
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code ignored;
+    for (const std::filesystem::path& one : made_)
+        if (!std::filesystem::remove(one, ignored)) return;
+}
+
 }  // namespace scree::demos

@@ -1,8 +1,10 @@
 // Checks that an output file can be written, before the work.
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace scree::demos {
 
@@ -16,5 +18,18 @@ struct NamedOutput {
     std::string name;
 };
 void require_distinct(std::initializer_list<NamedOutput> outputs);
+
+// Makes a folder of outputs before others are checked, which may be files in it. The destructor removes what it has made if
+// that is still empty. A name that cannot be a folder is for others to refuse.
+class OutputFolder {
+public:
+    explicit OutputFolder(const std::filesystem::path& folder);  // empty: none
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+private:
+    std::vector<std::filesystem::path> made_;  // innermost first
+};
 
 }  // namespace scree::demos

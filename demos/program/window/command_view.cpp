@@ -50,7 +50,7 @@ int view(ViewOptions options) {
         at_work([&] {
             viewer.run();
             viewer.write_report();
-            viewer.write_recording();
+            viewer.write_recordings();
         });
     }
     machine.require_valid();
@@ -74,7 +74,12 @@ void add_view(CLI::App& program, int& status) {
         ->group("Window");
     command
         ->add_option("--record", options->record,
-                     "Record every command to this file, written at closing; scree run --input FILE replays it.")
+                     "Record every command to this file, for scree run --input FILE. Each restart and each other scene has a "
+                     "recording of its own, if you do something there: NAME-2.json, NAME-3.json and so on beside the file. "
+                     "They are written when their scene ends; what is taken back (time line, Ctrl+Z) is not in them.")
+        ->group("Window");
+    command->add_option("--ui-scale", options->text_scale, "Size of the panel's text; Ctrl + and Ctrl - change it. Default: 1.")
+        ->check(between(0.6, 4))
         ->group("Window");
     command->add_option("--report", options->report, "JSON status file, rewritten every half second and at closing.")
         ->group("Window");

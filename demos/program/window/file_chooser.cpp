@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "compute/scene_file/load_scene.h"
+#include "demos/program/window/widgets.h"
 
 namespace scree::demos {
 
@@ -25,6 +26,7 @@ void FileChooser::show() {
     std::error_code ignored;
     go_to(folder_.empty() ? std::filesystem::current_path(ignored) : folder_);
     shown_ = true;
+    field_active_ = false;
 }
 
 void FileChooser::go_to(const std::filesystem::path& folder) {
@@ -54,18 +56,27 @@ std::optional<std::string> FileChooser::lay_out(const std::string& message) {
     std::optional<std::filesystem::path> next;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowSize(ImVec2(std::min(520.0f, screen.x - 16), std::min(400.0f, screen.y - 16)), ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize(
+        ImVec2(std::min(35 * ImGui::GetFontSize(), screen.x - 16), std::min(27 * ImGui::GetFontSize(), screen.y - 16)),
+        ImGuiCond_Appearing);
     ImGui::Begin("open a scene", &shown_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNavInputs);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputText("##path", entered_.data(), entered_.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
-        const std::filesystem::path path = entered_.data();
+    // The field has the keyboard from the first picture on, and again after each name that was entered.
+    if (!field_active_) ImGui::SetKeyboardFocusHere();
+    if (ImGui::InputText("##path", entered_.data(), entered_.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) {
+        std::filesystem::path path = entered_.data();
         std::error_code unknown;
+        if (path.is_relative() && std::filesystem::exists(folder_ / path, unknown)) path = folder_ / path;
         if (std::filesystem::is_directory(path, unknown))
             next = path;
         else
             chosen = path.string();
     }
-    ImGui::BeginChild("list", ImVec2(0, -ImGui::GetFrameHeightWithSpacing()), true);
+    field_active_ = ImGui::IsItemActive();
+    const std::string& said = reason_.empty() ? message : reason_;
+    if (!said.empty()) say_wrapped(ImVec4(1, 0.5f, 0.4f, 1), said, ImGui::GetContentRegionAvail().x);
+    ImGui::BeginChild("list", ImVec2(0, 0), true);
     if (folder_.has_parent_path() && ImGui::Selectable("../")) next = folder_.parent_path();
     for (const std::string& name : folders_)
         if (ImGui::Selectable((name + "/").c_str())) next = folder_ / name;
@@ -73,8 +84,6 @@ std::optional<std::string> FileChooser::lay_out(const std::string& message) {
         if (ImGui::Selectable(name.c_str())) chosen = (folder_ / name).string();
     if (files_.empty()) ImGui::TextDisabled("no scene files (.json, .xml, .mjcf, .urdf, .gltf, .glb, .stl, .obj) here");
     ImGui::EndChild();
-    const std::string& said = reason_.empty() ? message : reason_;
-    if (!said.empty()) ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", said.c_str());
     ImGui::End();
     if (next) go_to(*next);
     return chosen;

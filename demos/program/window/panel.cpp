@@ -5,16 +5,19 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "compute/scene_file/picture_style_fields.h"
 #include "demos/program/options/units.h"
 #include "demos/program/window/widgets.h"
 #include "demos/scenes/demos.h"
-#include "host/files/file.h"
 
 namespace scree::demos {
 
 namespace {
+
+constexpr float snaps_to_zero = 1.5f;  // m/s^2, of the slider of gravity, whose upper half lets things fall up
 
 void choose_demo(Session& session, Interaction& interaction) {
     const std::string& name = session.subject().name;
@@ -49,13 +52,13 @@ void Panel::show_clock(Session& session, Interaction& interaction, const Rates& 
     say_line(fmt::format("{:.2f} s, {} steps, {} bodies", world.time(), world.steps(), world.bodies_there()));
     say_line(
         fmt::format("{:.1f} steps/s ({:g} is real time), {:.1f} pictures/s", rates.steps, world.settings().rate, rates.pictures));
-    if (ImGui::Button(interaction.paused ? "Go on" : "Pause")) interaction.paused = !interaction.paused;
+    if (ImGui::Button(interaction.paused ? "Go on (P)" : "Pause (P)")) interaction.paused = !interaction.paused;
     ImGui::SameLine();
-    if (ImGui::Button("Step")) interaction.step_once();
+    if (ImGui::Button("Step (.)")) interaction.step_once();
     ImGui::SameLine();
-    if (ImGui::Button("Again")) interaction.reset();
+    if (ImGui::Button("Again (R)")) interaction.reset();
     ImGui::SameLine();
-    if (ImGui::Button("Next demo")) interaction.open_next(1);
+    if (ImGui::Button("Undo (Ctrl+Z)")) interaction.undo();
     ImGui::SliderFloat("pace", &interaction.pace, 1.0f / 16, 1, "%.3f x", ImGuiSliderFlags_AlwaysClamp);
     resets("pace", interaction.pace, 1.0f);
     show_timeline(session, interaction);
@@ -88,7 +91,10 @@ void Panel::show_dials(Session& session, Interaction& interaction) {
         const bool moved = ImGui::SliderFloat(label, &value, low, high, form, ImGuiSliderFlags_AlwaysClamp);
         return resets(label, value, by_default) || moved;
     };
-    if (slider("gravity", gravity.y, -30, 30, "%.2f m/s^2", session.subject().scene.gravity.y)) turn.gravity = gravity;
+    if (slider("gravity", gravity.y, -30, 30, "%.2f m/s^2", session.subject().scene.gravity.y)) {
+        if (std::abs(gravity.y) < snaps_to_zero) gravity.y = 0;
+        turn.gravity = gravity;
+    }
     if (slider("friction", factor, 0, 3, "%.2f x", of_scene.friction_factor)) turn.friction_factor = factor;
     if (slider("restitution", least, 0, 1, "at least %.2f", of_scene.least_restitution)) turn.least_restitution = least;
     const bool moved = ImGui::SliderInt("substeps", &substeps, 1, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
@@ -102,14 +108,15 @@ void Panel::show_overlays(PictureStyle& style) {
     for (std::size_t i = 0; i < overlay_words().size(); ++i) {
         const auto overlay = static_cast<Overlay>(i);
         bool on = shows(style, overlay);
-        if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 105);
-        if (ImGui::Checkbox(overlay_words()[i].c_str(), &on)) set_shown(style, overlay, on);
+        if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * ems(8.2f));
+        if (ImGui::Checkbox(fmt::format("{} ({})", overlay_words()[i], i + 4).c_str(), &on)) set_shown(style, overlay, on);
     }
 }
 
 void Panel::show_additions(Interaction& interaction, Wishes& wishes) {
     say_line("add a");
-    for (const auto& [label, kind] : {std::pair("sphere", Kind::sphere), {"capsule", Kind::capsule}, {"box", Kind::box}}) {
+    for (const auto& [label, kind] :
+         {std::pair("sphere (1)", Kind::sphere), {"capsule (2)", Kind::capsule}, {"box (3)", Kind::box}}) {
         ImGui::SameLine();
         if (ImGui::Button(label)) interaction.add(kind);
     }
@@ -135,33 +142,6 @@ void Panel::show_vehicle(Session& session, Interaction& interaction) {
     ImGui::Checkbox("chase", &interaction.chases);
 }
 
-void Panel::show_graphs(Session& session, Interaction& interaction, const Rates& rates) {
-    if (!ImGui::TreeNodeEx("graphs", ImGuiTreeNodeFlags_None)) return;
-    const std::optional<std::size_t> body = interaction.selected();
-    history_.look(session.world(), body, session.beginnings(), rates.step_ms);
-    say_line(body ? "of " + name_of(session.world().scene(), *body) : "of the world; select a body for its own");
-    for (std::size_t k = 0; k < History::count; ++k) {
-        const std::vector<float>& values = history_.of(static_cast<History::Series>(k));
-        if (values.empty()) continue;
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        const std::string now = with_unit(values.back(), History::units[k]);
-        ImGui::PlotLines(History::names[k], values.data(), static_cast<int>(values.size()), 0, now.c_str(),
-                         std::min(0.0f, *least), *most, ImVec2(0, 38));
-    }
-    if (ImGui::Button("write CSV")) write_graphs(session);
-    ImGui::TreePop();
-}
-
-void Panel::write_graphs(const Session& session) {
-    const std::string file = host::unused_name(session.subject().title() + "-graphs", ".csv");
-    try {
-        host::write_atomically(file, history_.csv());
-        tell("graphs in " + file);
-    } catch (const std::exception& error) {
-        tell(error.what());
-    }
-}
-
 void Panel::show_light(PictureStyle& style) {
     if (!ImGui::TreeNodeEx("light", ImGuiTreeNodeFlags_None)) return;
     choose("sky", sky_words(), style.sky);
@@ -185,14 +165,13 @@ void Panel::show_chooser(Interaction& interaction) {
 }
 
 bool Panel::closes_something() {
-    if (list_open_ && shown) {
-        // The list sees the key in the next layout, even if it is released by then.
-        ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = true;
+    if (list_open_ && shown) return true;  // Dear ImGui gets the key, too
+    if (chooser.shown()) {
+        chooser.hide();
         return true;
     }
-    if (!chooser.shown()) return false;
-    chooser.hide();
-    return true;
+    if (ImGui::GetIO().WantTextInput) return true;  // a number that is being written
+    return std::exchange(help_shown, false);
 }
 
 Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& rates, PictureStyle& style) {
@@ -201,15 +180,19 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     if (joined_ != interaction.joined()) set_shown(style, Overlay::joints, true);
     joined_ = interaction.joined();
     show_chooser(interaction);
+    show_messages(interaction);
+    show_help();
     if (!shown) return wishes;
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.78f);
     ImGui::Begin("scree", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::PushItemWidth(170);
+    ImGui::PushItemWidth(ems(11.3f));
     choose_demo(session, interaction);
     ImGui::SameLine();
-    if (ImGui::SmallButton("open")) chooser.show();
+    if (ImGui::SmallButton("next (Tab)")) interaction.open_next(1);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("open (O)")) chooser.show();
     choose_color(style);
     show_overlays(style);
     show_clock(session, interaction, rates);
@@ -221,27 +204,14 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     ImGui::Separator();
     show_vehicle(session, interaction);
     if (!interaction.selected()) ImGui::TextDisabled("click a body to see what it is about");
-    if (!interaction.message().empty()) ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", interaction.message().c_str());
-    if (!told_.empty()) ImGui::TextColored(ImVec4(0.6f, 0.9f, 0.6f, 1), "%s", told_.c_str());
-    show_graphs(session, interaction, rates);
-    if (ImGui::TreeNodeEx("keys", ImGuiTreeNodeFlags_None)) {
-        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-            for (const KeyHelp& line : key_help()) {
-                ImGui::TableNextRow();
-                ImGui::TableNextColumn();
-                say_line(line.keys);
-                ImGui::TableNextColumn();
-                say_line(line.meaning);
-            }
-            ImGui::EndTable();
-        }
-        ImGui::TreePop();
-    }
+    if (ImGui::Button("graphs")) graphs_shown_ = !graphs_shown_;
+    ImGui::SameLine();
+    if (ImGui::Button("keys (F1)")) help_shown = !help_shown;
     ImGui::PopItemWidth();
     ImGui::End();
     show_selected(session, interaction);
+    show_graphs(session, interaction, rates);
     list_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = false;
     return wishes;
 }
 

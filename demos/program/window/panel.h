@@ -12,6 +12,7 @@
 #include "demos/play/history.h"
 #include "demos/play/interaction.h"
 #include "demos/program/window/file_chooser.h"
+#include "host/canvas/colors.h"
 
 namespace scree::demos {
 
@@ -32,12 +33,16 @@ class Panel {
 public:
     // Lays out the panel and the marks over the picture in Dear ImGui's current frame. The user may change `style`.
     Wishes lay_out(Session& session, Interaction& interaction, const Rates& rates, PictureStyle& style);
-    void tell(std::string message) { told_ = std::move(message); }  // shown until the next
+    // Legend and caption over the picture, at the size of the window (panel_overlay.cpp).
+    void lay_out_legend(const host::ColorScale& scale, const std::string& caption) const;
+    void tell(std::string message);  // shown for a while
 
     // Escape: whether a list or the chooser of files was open, and closes.
     bool closes_something();
 
     bool shown = true;
+    bool help_shown = false;
+    float text_scale = 1;
     bool filming = false;  // a video is being written
     FileChooser chooser;
 
@@ -68,6 +73,9 @@ private:
     void show_vehicle(Session& session, Interaction& interaction);
     void show_graphs(Session& session, Interaction& interaction, const Rates& rates);
     void write_graphs(const Session& session);
+    // panel_overlay.cpp
+    void show_messages(const Interaction& interaction) const;
+    void show_help();
     // panel_marks.cpp: lines over the picture
     void show_marks(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
@@ -87,6 +95,8 @@ private:
     History history_;
     std::optional<int> wanted_step_;  // of the timeline, while it is dragged
     std::string told_;
+    double told_at_ = 0;  // s of Dear ImGui's clock
+    bool graphs_shown_ = false;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Coefficients> first_;  // by handle of the body
     std::uint64_t first_beginning_ = 0;
     std::string dragged_label_;  // the slider that is being dragged, and its value

@@ -150,7 +150,7 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     ImGui::Begin("selected body", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_NoMove);
-    ImGui::PushItemWidth(150);
+    ImGui::PushItemWidth(ems(10));
     World& world = session.world();
     const Scene& scene = world.scene();
     const BodyState state = world.body(*selected);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr ImU32 held_color = IM_COL32(255, 190, 60, 255), selected_color = IM_COL32(255, 255, 255, 220),
                 force_color = IM_COL32(70, 240, 130, 255), shade = IM_COL32(0, 0, 0, 170);
-constexpr std::size_t most_numbers = 12;  // forces with numbers; more would cover each other
+constexpr std::size_t most_numbers = 4;  // forces with numbers: the largest
 
 ImVec2 screen_of(glm::vec2 pixel) {
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;  // pixels per screen unit
@@ -96,7 +96,12 @@ void Panel::show_forces(const World& world, const Interaction& interaction) cons
     const float reach = bounding_radius(body.shape);
     std::vector<ContactPoint> sorted = points_;
     std::sort(sorted.begin(), sorted.end(), [](const ContactPoint& a, const ContactPoint& b) { return a.force > b.force; });
-    std::size_t numbered = 0;
+    std::vector<ImVec2> numbered;
+    const auto is_free = [&](ImVec2 place) {  // numbers do not cover each other
+        return std::ranges::none_of(numbered, [&](ImVec2 other) {
+            return std::abs(place.x - other.x) < 4 * ImGui::GetFontSize() && std::abs(place.y - other.y) < ImGui::GetFontSize();
+        });
+    };
     for (const ContactPoint& point : sorted) {
         const std::optional<ImVec2> at = screen_of(interaction, point.position);
         if (!at) continue;
@@ -107,8 +112,9 @@ void Panel::show_forces(const World& world, const Interaction& interaction) cons
         const vec3 tail = point.position - point.normal * (reach * std::min(3.0f, std::sqrt(point.force / weight)));
         draw_line(interaction, tail, point.position, force_color);
         const std::optional<ImVec2> end = screen_of(interaction, tail);
-        if (end && numbered++ < most_numbers)
-            draw_text(ImVec2(end->x + 5, end->y - 7), force_color, with_prefix(point.force, "N"));
+        if (!end || numbered.size() == most_numbers || !is_free(*end)) continue;
+        draw_text(ImVec2(end->x + 5, end->y - 7), force_color, with_prefix(point.force, "N"));
+        numbered.push_back(*end);
     }
 }
 

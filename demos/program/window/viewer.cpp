@@ -2,13 +2,16 @@
 #include "demos/program/window/viewer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "demos/film/pictures.h"
 #include "demos/film/style.h"
+#include "demos/program/console.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/options/option_parsing.h"
@@ -21,7 +24,8 @@ namespace scree::demos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double report_every = 0.5;  // s
+constexpr double report_every = 0.5;                   // s
+constexpr float least_text = 0.6f, greatest_text = 4;  // as the options of scree view allow
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
@@ -66,6 +70,7 @@ Viewer::Viewer(const ViewOptions& options, const host::Display& display, Backend
       interaction_(session_, options.extent),
       window_(display, machine_.screen, "scree", options.extent.width, options.extent.height),
       detail_(machine_.screen->report().is_processor) {
+    panel_.text_scale = options.text_scale;
     if (options.scene.steps || options.scene.seconds)
         last_step_ =
             static_cast<std::uint64_t>(options.scene.step_count(session_.subject().seconds, session_.world().settings().rate));
@@ -78,16 +83,33 @@ bool Viewer::is_over() {
 
 void Viewer::take_events(double wait) {
     for (const host::Event& event : window_.poll(wait)) {
-        const bool escape = event.kind == host::EventKind::key_pressed && event.key == host::Key::escape;
-        if (escape && panel_.closes_something()) continue;
-        interaction_.on(event);
-        if (event.kind != host::EventKind::key_pressed) continue;
-        if (event.key == host::key_of('O')) panel_.chooser.shown() ? panel_.chooser.hide() : panel_.chooser.show();
-        if (event.key == host::key_of('H')) panel_.shown = !panel_.shown;
-        const int overlay = static_cast<int>(event.key) - '4';
-        if (overlay >= 0 && overlay < static_cast<int>(overlay_words().size()))
-            set_shown(style_, static_cast<Overlay>(overlay), !shows(style_, static_cast<Overlay>(overlay)));
+        if (event.kind != host::EventKind::key_pressed) {
+            interaction_.on(event);
+            continue;
+        }
+        if (event.key == host::Key::escape && panel_.closes_something()) continue;
+        if (!panel_.chooser.shown()) press_key(event);  // what is typed there is no command
     }
+}
+
+void Viewer::press_key(const host::Event& event) {
+    interaction_.on(event);
+    const auto is = [&](char character) { return event.key == host::key_of(character); };
+    if (event.control) {
+        if (is('+')) panel_.text_scale = std::min(panel_.text_scale * 1.15f, greatest_text);
+        if (is('-')) panel_.text_scale = std::max(panel_.text_scale / 1.15f, least_text);
+        if (is('0')) panel_.text_scale = 1;
+        return;
+    }
+    if (is('O')) {
+        window_.forget_text(event);
+        panel_.chooser.show();
+    }
+    if (event.key == host::Key::f1 || (is('/') && event.shift)) panel_.help_shown = !panel_.help_shown;
+    if (is('H')) panel_.shown = !panel_.shown;
+    const int overlay = static_cast<int>(event.key) - '4';
+    if (overlay >= 0 && overlay < static_cast<int>(overlay_words().size()))
+        set_shown(style_, static_cast<Overlay>(overlay), !shows(style_, static_cast<Overlay>(overlay)));
 }
 
 // The scene's style for each scene that is opened.
@@ -98,18 +120,19 @@ void Viewer::choose_style() {
     scale_.reset();
 }
 
-// Recreates the drawing for another world, size or choice of overlays.
-void Viewer::make_drawing() {
+// Recreates the drawing for another world, size or choice of overlays; returns whether it did.
+bool Viewer::make_drawing() {
     const auto side = [&](int pixels) { return std::max(16, static_cast<int>(static_cast<float>(pixels) / detail_.divisor())); };
     const Extent extent{side(window_.width()), side(window_.height())};
     const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
                       drawn_extent_.height == extent.height && drawn_overlays_ == style_.show && drawn_light_ == light_of(style_);
-    if (same) return;
+    if (same) return false;
     host::CanvasOptions canvas;
     canvas.width = extent.width;
     canvas.height = extent.height;
     canvas.stays = true;
     canvas.smooth = detail_.divisor() == 1;
+    canvas.legend = false;  // the panel has it, at the window's size
     show_overlays(style_, session_.world(), canvas);
     show_light(style_, canvas);
     drawing_.reset();
@@ -119,6 +142,7 @@ void Viewer::make_drawing() {
     drawn_extent_ = extent;
     drawn_overlays_ = style_.show;
     drawn_light_ = light_of(style_);
+    return true;
 }
 
 // The range of the scene, and without one of its own what is measured.
@@ -143,23 +167,31 @@ void Viewer::measure_range(double seconds) {
 void Viewer::draw() {
     if (window_.width() < 16 || window_.height() < 16) return;  // minimised
     choose_style();
-    window_.begin_panel();
-    const Wishes wishes = panel_.lay_out(session_, interaction_, rates_, style_);
-    window_.end_panel();
-    choose_style();
-    make_drawing();
-    drawing_->update();
     const LoadedScene& subject = session_.subject();
     const World& world = session_.world();
+    window_.set_text_scale(panel_.text_scale);
+    window_.begin_panel(panel_.chooser.takes_keys());
+    const Wishes wishes = panel_.lay_out(session_, interaction_, rates_, style_);
     const std::string caption =
         panel_.shown ? ""
                      : fmt::format("{}\n{}, {:.2f} s{}", subject.title(), counted(world.bodies_there(), "body", "bodies"),
                                    world.time(), interaction_.paused ? ", paused" : "");
-    view_ = {camera_of(interaction_.eye()), *scale_, caption, subject.low, subject.high};
+    panel_.lay_out_legend(*scale_, caption);
+    window_.end_panel();
+    choose_style();
+    measure_range(0);
+    view_ = {camera_of(interaction_.eye()), *scale_, "", subject.low, subject.high};
+    // While nothing moves, only the panel is drawn.
+    const Shown now{view_.camera, view_.scale, world.steps(), session_.beginnings(), session_.acts()};
+    const bool moves = drawn_ != now, anew = make_drawing() || moves;
+    if (anew) drawing_->update();
+    drawn_.reset();
     const Clock::time_point start = Clock::now();
-    if (!window_.show(drawing_->canvas(), view_)) return;
+    if (!window_.show(drawing_->canvas(), view_, anew)) return;
+    drawn_ = now;
     ++pictures_;
-    detail_.drawn(seconds_between(start, Clock::now()), !interaction_.paused);
+    detail_.drawn(seconds_between(start, Clock::now()), moves || !interaction_.paused);
+    view_.caption = caption;
     draw_film();
     grant(wishes);
 }
@@ -240,6 +272,7 @@ void Viewer::run() {
         const double seconds = seconds_between(std::exchange(before, now), now);
         const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
         interaction_.advance(seconds);
+        write_earlier();
         choose_style();
         measure_range(interaction_.paused ? 0 : seconds);
         draw();
@@ -286,8 +319,28 @@ void Viewer::write_report() {
     host::write_atomically(options_.report, json.dump(1) + "\n");
 }
 
-void Viewer::write_recording() {
-    if (!options_.record.empty()) host::write_atomically(options_.record, json_of(session_.input()));
+// The first to the file that was named, the others to files beside it; what is no file, such as a pipe, gets them all.
+void Viewer::write_recording(const Input& input) {
+    const std::filesystem::path first = options_.record;
+    std::string file = first.string();
+    if (!recordings_.empty() && (!std::filesystem::exists(first) || std::filesystem::is_regular_file(first)))
+        file = host::unused_name((first.parent_path() / first.stem()).string(), first.extension().string());
+    host::write_atomically(file, json_of(input));
+    recordings_.push_back(file);
+    panel_.tell(fmt::format("recording of {} in {}", input.scene, file));
+}
+
+void Viewer::write_earlier() {
+    if (options_.record.empty()) return;
+    for (; earlier_ < session_.earlier().size(); ++earlier_) write_recording(session_.earlier()[earlier_]);
+}
+
+void Viewer::write_recordings() {
+    if (options_.record.empty()) return;
+    write_earlier();
+    if (recordings_.empty() || session_.acts() > 0) write_recording(session_.input());
+    if (recordings_.size() < 2) return;
+    say("scree: recordings, one of each scene and restart: {}\n", fmt::join(recordings_, ", "));
 }
 
 }  // namespace scree::demos

@@ -28,6 +28,16 @@ struct ViewOptions {
     Extent extent;
     PictureOptions pictures;  // --color and --show
     std::string record, report;
+    float text_scale = 1;
+};
+
+// What a picture of the scene depends on, but for the window's size and overlays.
+struct Shown {
+    host::Camera camera;
+    host::ColorScale scale;
+    std::uint64_t step = 0, beginning = 0;
+    std::size_t acts = 0;
+    bool operator==(const Shown&) const = default;
 };
 
 class Viewer {
@@ -35,12 +45,15 @@ public:
     Viewer(const ViewOptions& options, const host::Display& display, Backend machine);
     void run();
     void write_report();
-    void write_recording();
+    void write_recordings();  // all that were not written yet, with that of the present world
 
 private:
     bool is_over();
     void take_events(double wait);
-    void make_drawing();
+    bool make_drawing();
+    void press_key(const host::Event& event);
+    void write_recording(const Input& input);
+    void write_earlier();
     void choose_style();
     void measure_range(double seconds);
     void draw();
@@ -70,6 +83,9 @@ private:
     double measured_ = 0;        // s since the range was looked at
     PictureDetail detail_;
     host::View view_;
+    std::optional<Shown> drawn_;           // in the picture that the canvas has
+    std::vector<std::string> recordings_;  // files, for the message at the end
+    std::size_t earlier_ = 0;              // of the session's earlier recordings, those that are written
     std::unique_ptr<Film> film_;
     Rates rates_;
     std::uint64_t pictures_ = 0;

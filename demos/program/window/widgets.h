@@ -13,6 +13,20 @@ inline void say_line(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
+// Width in letters' heights, so that the panel grows with its text.
+inline float ems(float count) {
+    return count * ImGui::GetFontSize();
+}
+
+// A text that is wrapped at a width, pixels.
+inline void say_wrapped(const ImVec4& color, const std::string& text, float width) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    say_line(text);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
 // A drop-down list; Dear ImGui closes it by Escape only where keys navigate.
 inline bool begin_list(const char* label, const std::string& shown) {
     if (!ImGui::BeginCombo(label, shown.c_str())) return false;

@@ -216,6 +216,10 @@ VkImage VulkanCanvas::draw_there(const Camera& camera, const ColorScale& scale, 
     return interior_->target.image;
 }
 
+VkImage VulkanCanvas::picture_there() const {
+    return interior_->target.image;
+}
+
 const CanvasOptions& VulkanCanvas::options() const {
     return interior_->options;
 }

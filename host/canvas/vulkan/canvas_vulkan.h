@@ -25,6 +25,7 @@ public:
     // TRANSFER_SRC_OPTIMAL, valid until the next drawing.
     VkImage draw_there(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                        vec3 scene_high);
+    VkImage picture_there() const;  // the picture that draw_there() left
     const CanvasOptions& options() const;
 
 private:

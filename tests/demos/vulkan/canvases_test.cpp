@@ -85,7 +85,10 @@ struct View {
 };
 
 Image picture(Canvas& canvas, const World& world, const View& view) {
-    canvas.set_tables(demos::tables_of(world.state()));
+    BodyTables tables = demos::tables_of(world.state());
+    const std::vector<glm::vec4> colors = demos::colors_of(world.scene());
+    tables.colors = colors;
+    canvas.set_tables(tables);
     return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
 }
 

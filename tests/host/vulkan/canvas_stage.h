@@ -89,6 +89,7 @@ public:
         for (std::size_t k = 0; k < 6; ++k) joint.axes[k].mode = k == 3 ? 0 : scree::physics::AXIS_LOCKED;
         return joints_.emplace_back(joint);
     }
+    void color(std::vector<glm::vec4> colors) { colors_ = std::move(colors); }  // of the first bodies
     void add_ground() { add(scree::physics::SHAPE_PLANE, {0, 1, 0}, vec3(0), vec3(0), 0); }
 
     std::unique_ptr<Canvas> canvas(const CanvasOptions& options) {
@@ -116,6 +117,8 @@ public:
         tables.sleep_states = &rests_table_;
         tables.bounds = &bounds_table_;
         tables.ids = &ids_table_;
+        colors_.resize(traits_.size(), glm::vec4(0));
+        tables.colors = colors_;  // from host memory
         tables.joint_count = static_cast<std::uint32_t>(joints_.size());
         joints_.emplace_back().b = 1;  // past the valid records
         table(device, joints_table_, joints_);
@@ -152,6 +155,7 @@ private:
     ShapeInstances shapes_;
     std::vector<Contact> touches_;
     std::vector<ContactImpulse> pushes_;
+    std::vector<glm::vec4> colors_;
     std::vector<std::uint32_t> slot_ends_, slot_sides_, rests_, ids_;
     std::vector<Bounds> bounds_;
     std::vector<physics::Joint> joints_;

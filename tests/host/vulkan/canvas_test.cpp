@@ -87,6 +87,29 @@ TEST_CASE("a fixed body is grey whatever the scale says", "[canvas]") {
     CHECK(std::abs(seen.r - seen.b) < 30);
 }
 
+TEST_CASE("bodies have their own colours, and without one a light grey", "[canvas]") {
+    Stage stage;
+    stage.add(scree::physics::SHAPE_BOX, vec3(1), {-2.5f, 2, 0});
+    stage.add(scree::physics::SHAPE_BOX, vec3(1), {0, 2, 0});
+    stage.add(scree::physics::SHAPE_BOX, vec3(1), {2.5f, 2, 0});
+    stage.color({{0.6f, 0.02f, 0.02f, 1}, {0.02f, 0.02f, 0.6f, 1}, {0.6f, 0, 0, 0}});
+    ColorScale scale;
+    scale.by = ColorBy::own;
+    const Image image = stage.canvas(small(1))->draw(AHEAD, scale, "", vec3(-4, 0, -4), vec3(4));
+    const auto most = [&](int from, int to, auto holds) {
+        int count = 0;
+        for (int x = from; x < to; ++x)
+            for (int y = 0; y < 200; ++y) count += holds(at(image, x, y));
+        return count;
+    };
+    const auto red = [](const Pixel& p) { return p.r > 2 * p.b; };
+    const auto blue = [](const Pixel& p) { return p.b > 2 * p.r; };
+    CHECK(most(0, 130, red) > 200);
+    CHECK(most(130, 190, blue) > 200);
+    CHECK(most(210, 320, red) == 0);
+    CHECK(most(210, 320, blue) == 0);
+}
+
 TEST_CASE("every quantity can be drawn", "[canvas]") {
     Stage stage;
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {0, 2, 0}, {3, 0, 0}, 2);

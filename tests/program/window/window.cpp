@@ -269,6 +269,65 @@ TEST_CASE("the window goes through the demos, closes at a signal, and leaves its
     REQUIRE(recorded.at("acts").size() == 1);
 }
 
+TEST_CASE("in the window the open dialog has the keyboard, and each restart and scene in which something is done its recording") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    const std::string file = place.write("qpb3x.json", scene), recording = (place / "played.json").string();
+    Viewer viewer(screen, place, "open", {"stack", "--backend", "cpu", "--size", "640x400", "--record", recording});
+    viewer.find_window();
+    viewer.strike("3");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 12; }));
+    viewer.strike("r");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 11; }));
+    viewer.strike("3");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 12; }));
+    // All of this may come between two pictures.
+    viewer.strike("o");
+    viewer.hand("type --delay 1 '/nowhere/qpb3x.json'");
+    viewer.strike("Return");
+    viewer.next();
+    viewer.next();
+    viewer.shoot("1_refused");
+    REQUIRE(viewer.report().at("demo") == "stack");
+    REQUIRE(viewer.report().at("bodies") == 12);
+    REQUIRE(viewer.report().at("paused") == false);
+    viewer.hand("key ctrl+a");
+    viewer.hand("type --delay 1 '" + file + "'");
+    viewer.strike("Return");
+    REQUIRE(viewer.until([&](const json& now) { return now.at("demo") == file; }));
+    viewer.strike("3");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 5; }));
+    viewer.hand("key ctrl+z");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 4; }));
+    viewer.strike("3");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 5; }));
+    viewer.strike("q");
+    REQUIRE(viewer.process().end(30) == 0);
+    REQUIRE(says(viewer.errors(), "played-2.json"));
+    for (const char* name : {"played.json", "played-2.json", "played-3.json"}) {
+        CAPTURE(name);
+        const json recorded = json::parse(place.read(name));
+        REQUIRE(recorded.at("scene") == (name == std::string("played-3.json") ? file : "stack"));
+        REQUIRE(recorded.at("acts").size() == 1);
+        const Outcome outcome = run_scree("run --input '" + (place / name).string() + "' --backend cpu");
+        INFO(outcome.output << outcome.errors);
+        REQUIRE(says(outcome.output, "as recorded"));
+    }
+}
+
+TEST_CASE("in a window that stands still more pictures are shown than could be drawn") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    Viewer viewer(screen, place, "still", {"wall", "--backend", "cpu", "--size", "1200x700"});
+    viewer.find_window();
+    viewer.strike("p");
+    REQUIRE(viewer.until([](const json& now) { return now.at("paused") == true && now.at("pictures_per_second") > 8; }));
+    viewer.strike("q");
+    REQUIRE(viewer.process().end(30) == 0);
+}
+
 namespace {
 
 // Replacements of Vulkan functions that forward the call and return VK_ERROR_SURFACE_LOST_KHR.
