@@ -103,7 +103,7 @@ void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Elim
 
 struct Block {
     std::vector<Eliminated> order;
-    bool is_cut;  // its graph is cut at more bodies than converge by themselves
+    bool is_cut;  // its graph is cut at more than most_shared_bodies (JOINT_CUT)
 };
 // Bodies that several blocks share.
 std::size_t shared_bodies(const Scene& scene, const Graph& graph, const std::vector<std::vector<Eliminated>>& blocks) {

@@ -18,8 +18,8 @@ struct State;
 // share bodies like contacts (mass splitting). The joints of a block are eliminated one after the other, so larger ones
 // would keep the others waiting.
 constexpr std::size_t most_joints_of_block = physics::MAX_BLOCK_JOINTS;
-// Of a graph whose blocks share more bodies than this, joints are softer (JOINT_CUT): a machine that is cut once stays stiff, a
-// net would boil.
+// Of a graph whose blocks share more bodies than this, joints are softer (JOINT_CUT): stiff ones add energy to nets and to long
+// chains. Machines that are cut at one or two bodies are stable, and stay stiff.
 constexpr std::size_t most_shared_bodies = 2;
 
 struct JointTables {

@@ -15,7 +15,9 @@ using Quad = uint4;
 
 // What a scene has, as shaders/stages/lib/features.glsl narrows it.
 constexpr bool everything = TWIN_ALL_FEATURES != 0;
-constexpr unsigned group_shift = 5;
+constexpr unsigned group_shift = GROUP_SHIFT;
+// Quads of a ContactImpulse that the biased pass writes (SOLVED_MEMBERS in pass_contacts.glsl): normal, friction and stretch; rolling.
+constexpr unsigned solved = 1u << 0 | 1u << 2 | 1u << 5, rolled = 1u << 3;
 
 struct Tables {
     const Parameters* parameters;
@@ -112,7 +114,7 @@ extern "C" __global__ void __launch_bounds__(128, TWIN_GROUPS) solve_contacts(Ta
             impulse = impulse_at(t, here - 1u);
         }
         const BiasedOutcome after = biased_pass(c, impulse, v, bodies, around_impact(t, c, p), p);
-        write(t.impulses, here - 1u, group_shift, contact_impulse_of(after.impulse), everything ? 0x2Du : 0x25u);
+        write(t.impulses, here - 1u, group_shift, contact_impulse_of(after.impulse), everything ? solved | rolled : solved);
         if (everything) write(t.impacts, here - 1u, group_shift, contact_impact_of(after.impulse));
         write_slots(t, c, after.share, after.impact_weight, everything ? after.debt : 0.0f);
         v = after.velocity;

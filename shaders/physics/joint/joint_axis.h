@@ -21,8 +21,8 @@ CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest angular correction
 // Compliance of rigid rows, relative to their inverse effective mass: mechanisms have redundant joints, and without
 // compliance their equations are singular. More stretches chains; less lets the redundant part grow from rounding.
 CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
-// Of a graph that is cut into blocks. A pass is one iteration over them: what it leaves of the correction's speed is energy, and
-// impulses that oppose each other across a cut grow. With the values above, nets of joints boil.
+// Baumgarte factor and compliance of a graph that is cut into blocks (JOINT_CUT). A pass is one iteration over the blocks: what
+// it leaves of the correction's speed is energy, and impulses that oppose each other across a cut grow.
 CONSTANT float CUT_RATE = 0.05f, CUT_COMPLIANCE = 1.0e-2f;
 CONSTANT float GENTLE_SPRING = 0.25f;  // stability limit of explicit springs: softer ones act as forces
 
