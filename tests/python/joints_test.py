@@ -112,6 +112,23 @@ class Control(unittest.TestCase):
         self.assertTrue(world.drives(axis="x").locked.all())
         world.set_drive([True, False], max_force=np.inf)
 
+    @unittest.skipUnless(scree._native.has_vulkan, "built without Vulkan")
+    def test_servos_have_the_same_bits_on_every_backend(self):
+        hashes = set()
+        for backend in ("cpu", "vulkan"):
+            world = scree.World(arm(5), backend=backend, copies=9)
+            random = np.random.default_rng(7)
+            world.set_joint_coordinates(world.joint_ids(), random.uniform(-1, 1, (9, 5)), random.uniform(-1, 1, (9, 5)))
+            for i in range(40):
+                if i % 10 == 0:  # explicit and implicit ones, with and without stiffness
+                    world.set_drive(world.joint_ids(), stiffness=[0, 10, 1e3, 1e5, 1e7], damping=10 ** random.uniform(0, 5, (9, 5)),
+                                    target=random.uniform(-1, 1, (9, 5)), target_speed=random.uniform(-3, 3, (9, 5)),
+                                    max_force=10 ** random.uniform(1, 6, (9, 5)))
+                world.apply_joint_forces(world.joint_ids(), random.uniform(-9, 9, (9, 5)))
+                world.step()
+            hashes.add(world.state_hash())
+        self.assertEqual(len(hashes), 1)
+
     def test_a_robot_is_set_up(self):
         scene = loaded(ROBOT, "robot.urdf", axes="file")
         world = scree.World(scene, backend="cpu")
