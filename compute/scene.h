@@ -62,6 +62,12 @@ struct Inertial {
     vec4 frame{0, 0, 0, 1};  // principal axes to the frame of the shape, quaternion
 };
 
+// A frame within another.
+struct BodyFrame {
+    vec3 position{0};              // m
+    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w
+};
+
 struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
@@ -94,6 +100,9 @@ struct Body {
     // The body of which this is a fragment, inactive until that one breaks; its pose is the initial one. Fragments are
     // appended when the scene is checked; scene files have none.
     std::size_t piece_of = no_body;
+    // The frame in which the body was described, in the body's own: none until the scene is checked, which moves the frames of
+    // hulls, compounds and bodies with `inertial`; then none for one that stayed. Importers give that of the link.
+    std::optional<BodyFrame> origin{};
 };
 
 // ---- joints
@@ -110,13 +119,14 @@ struct Spring {                   // spring-damper towards `rest`; with stiffnes
     float damping = 0;            // N s/m or N m s/rad, 0 to 1e12
     float rest = 0;               // m or rad
     float max_force = unlimited;  // N or N m
+    float speed = 0;              // m/s or rad/s, -1e4 to 1e4, towards which it damps
 };
 struct Motor {            // drives B relative to A
     float speed = 0;      // m/s or rad/s
     float max_force = 0;  // N or N m
 };
 // Behaviour along or about one axis: limits, a spring with damping, and a motor or dry friction. A spring with a motor or
-// friction has no max_force. A position motor is a spring whose `rest` World::set_spring moves.
+// friction has no max_force and no speed. A position motor is a spring whose `rest` World::set_drives moves.
 struct Axis {
     bool locked = false;  // no motion
     std::optional<Limits> limits;

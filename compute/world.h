@@ -100,6 +100,7 @@ struct JointState {
     // By JointAxis: position of B relative to A, m and rad; for a Distance joint the first is the distance. The angle of a
     // hinge, a twist or a swing alone counts turns.
     std::array<float, 6> coordinates{};
+    std::array<float, 6> rates{};  // of these, m/s and rad/s, as the solver takes them: of a large swing to first order
 };
 
 // For apply_joint_forces.
@@ -108,6 +109,29 @@ struct JointForce {
     JointAxis axis = JointAxis::twist;  // of a Distance joint x: along the line from A's anchor to B's
     float force = 0;                    // N or N m
 };
+
+// For set_drives: the spring of an axis as a servo. It exerts stiffness (target - coordinate) + damping (target_speed - rate), at
+// most max_force. What is left out stays, or without a spring is 0, and max_force unlimited.
+struct JointDrive {
+    std::size_t joint = 0;
+    JointAxis axis = JointAxis::twist;
+    std::optional<float> stiffness{};     // N/m or N m/rad
+    std::optional<float> damping{};       // N s/m or N m s/rad
+    std::optional<float> target{};        // m or rad
+    std::optional<float> target_speed{};  // m/s or rad/s
+    std::optional<float> max_force{};     // N or N m
+};
+
+// For set_joint_coordinates; what is left out stays.
+struct JointCoordinate {
+    std::size_t joint = 0;
+    JointAxis axis = JointAxis::twist;
+    std::optional<float> coordinate{};  // m or rad
+    std::optional<float> rate{};        // m/s or rad/s
+};
+
+// The axis along or about which a joint of that kind moves, if it has one: x of a slider or distance, else twist.
+JointAxis main_axis(const JointKind& kind);
 
 // A vehicle after the last step.
 struct VehicleState {
@@ -172,14 +196,14 @@ using VaryCopy = std::function<void(std::size_t copy, Scene& scene)>;
 // Timeline and the messages of a device, which say for themselves. demos/docs/guide/threads.md.
 class World {
 public:
-    // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range. `runner`:
-    // make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
+    // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range and for no runner.
+    // `runner`: make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner);  // takes the scene, in place of copying it
     // Of a scene whose bodies come one after the other. Ranks that can share it out (compute/distributed/distributed.h) keep
     // their shares of it from the start; any other world takes it whole.
     World(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
-    // On the CPU, with `threads` worker threads (0: one per core).
+    // On the CPU, with `threads` worker threads (0: one per core; below 0 throws std::invalid_argument).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);
     // Many copies of the scene in one world (`copies`, 1 to 4,194,304), in one set of tables: each moves with the same bits
     // as a world of that scene alone, whatever happens in the others. Copy w has the bodies from w * bodies_of_copy() on,
@@ -193,7 +217,8 @@ public:
 
     // Advances by `count` steps of 1/rate seconds. Buffers grow as needed. Throws only when memory ends
     // (std::bad_alloc, std::length_error or the device's own error): then the bodies are as after the last whole step,
-    // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error.
+    // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error. Throws
+    // std::invalid_argument for a count below 0.
     void step(int count = 1);
     // Memory that the tables of a step may take, bytes, from the next step on; on a device its own memory, but on a rank the
     // host's, also beside a device. Default: no limit. A step whose pairs and contacts need more throws std::length_error, which
@@ -247,11 +272,22 @@ public:
     void wake_all();                  // in the next step
     void set_sleeping(bool allowed);  // from the next step on
 
-    // Replaces the spring, motor and friction of a joint's axis from the next step on (a hinge's axis is twist, a
-    // slider's x), and wakes its bodies. Throws std::out_of_range for the index, std::invalid_argument for an axis that
-    // cannot move, SceneError for the values.
+    // Set the motor or the spring of a joint's axis from the next step on (a hinge's axis is twist, a slider's x), and wake its
+    // bodies. The other one stays, and friction, but that a motor takes its place; beside a spring a motor without force is
+    // none. Throw std::out_of_range for the index, std::invalid_argument for an axis that cannot move, SceneError for the values
+    // and for a spring with a speed or a limit of its force beside a motor or friction.
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
+    // Many axes in one transfer. A drive takes the place of a motor. Throws the same, and then changes nothing.
+    void set_drives(std::span<const JointDrive> drives);
+    // Limits, spring, motor and friction of an axis at present; one that cannot move is locked. Throws std::out_of_range.
+    Axis joint_axis(std::size_t joint, JointAxis axis) const;
+    // Places bodies so that joints have these coordinates and rates. Joints that are not named keep theirs: what hangs on a joint
+    // moves along, seen from the root of its tree, which stays. Roots are the world, bodies that are not dynamic, and else the
+    // one body that is b of no joint, or the first. Reads all bodies and joints. Throws std::out_of_range for an index,
+    // std::invalid_argument for joints in a loop, broken ones, axes that cannot move, distance joints, values that are not finite
+    // or outside of the axis's limits, and what set_bodies refuses; then changes nothing.
+    void set_joint_coordinates(std::span<const JointCoordinate> coordinates);
 
     // Forces (N) or torques (N m) along or about joint axes on B, and the opposite on A, in the next step; they add up. Axes as
     // they are when the step begins; reads the poses of their bodies. Throws std::out_of_range for the index,
@@ -313,6 +349,9 @@ public:
     // std::out_of_range for an index, std::invalid_argument for a body that is not there and for values out of range, naming the
     // body; then changes nothing.
     void set_bodies(std::span<const BodyChange> changes);
+    // Where the frames lie in which bodies were described (Body::origin): that of the points of a hull, the parts of a compound,
+    // the link of a robot. Others' are their own. Reads all bodies. Throws std::out_of_range for an index.
+    std::vector<BodyFrame> origins(std::span<const std::size_t> bodies) const;
     // Moves kinematic bodies to poses, each in a number of steps with constant velocities, which push what they meet; then
     // they stand still. A new target, velocity, pose or motion of a body replaces this. Reads their poses. Throws
     // std::out_of_range for an index, std::invalid_argument for a body that is not kinematic, values out of range, and a

@@ -262,6 +262,7 @@ physics::JointAxis axis_record(const Axis& axis) {
         record.stiffness = axis.spring->stiffness;
         record.damping = axis.spring->damping;
         record.rest = axis.spring->rest;
+        record.speed = axis.spring->speed;
         record.most = axis.spring->max_force;
     }
     if (axis.motor) {
@@ -270,6 +271,7 @@ physics::JointAxis axis_record(const Axis& axis) {
         record.most = axis.motor->max_force;
     } else if (axis.friction > 0) {
         record.mode |= physics::AXIS_MOTOR;
+        record.speed = 0;
         record.most = axis.friction;
     }
     if (axis.armature >= least_armature) record.mode |= physics::AXIS_ROTOR;
@@ -368,14 +370,16 @@ std::optional<float> angle_to_tell(const State& state, const physics::Joint& joi
 }
 
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k) {
+    return speed_of_axis(state, joint, k, configuration_of(state, joint), joint.flags);
+}
+float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k, const physics::JointConfiguration& at,
+                    physics::uint flags) {
     using namespace physics;
     const auto velocity = [&](uint body) { return body == NONE ? Velocity{} : state.velocities[body]; };
-    const JointConfiguration at = configuration_of(state, joint);
     const VelocityPair v{velocity(joint.a), velocity(joint.b)};
     const int axis = static_cast<int>(k);
     const float h = state.fixed().h;
-    const JointRow row =
-        is_linear(k) ? linear_row({}, at, axis, joint.flags, v, h) : angular_row({}, at, axis - 3, joint.flags, v, h);
+    const JointRow row = is_linear(k) ? linear_row({}, at, axis, flags, v, h) : angular_row({}, at, axis - 3, flags, v, h);
     return row_speed(row, is_linear(k), v);
 }
 

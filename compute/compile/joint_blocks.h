@@ -49,6 +49,9 @@ physics::JointRotor rotor_record(const Axis& axis);
 // The coordinates of a joint whose bodies are at these poses.
 physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b);
 physics::JointConfiguration configuration_of(const State& state, const physics::Joint& joint);
+// The rate of a coordinate of the record in that configuration; `flags`: those of the joint that count.
+float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k, const physics::JointConfiguration& at,
+                    physics::uint flags);
 // Whole turns of a joint at its present poses as a world begins: those nearest to `angle`, or else the fewest that its limits
 // allow, which a start may violate by a little.
 float first_turns(const State& state, const physics::Joint& joint, std::optional<float> angle);

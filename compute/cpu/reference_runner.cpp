@@ -49,6 +49,8 @@ bool ReferenceRunner::step(const std::function<bool(const Stage&, std::size_t)>&
 }
 
 std::unique_ptr<Runner> make_reference_runner(int threads) {
+    if (threads < 0)
+        throw std::invalid_argument("threads: is " + std::to_string(threads) + "; 0 means one per core, else it is above 0");
     return std::make_unique<ReferenceRunner>(threads);
 }
 

@@ -38,6 +38,8 @@ struct Rules {
             refuse(at, "an axis has at most one of motor and friction; lower the motor's max_force by the friction");
         if (axis.spring && axis.spring->max_force < unlimited && (axis.motor || axis.friction != 0))
             refuse(at / "spring" / "max_force", "beside a motor or friction a spring's force has no limit; leave it out");
+        if (axis.spring && axis.spring->speed != 0 && (axis.motor || axis.friction != 0))
+            refuse(at / "spring" / "speed", "beside a motor or friction a spring damps towards speed 0; leave it out");
     }
 
 private:
@@ -76,6 +78,27 @@ void check_joints(Scene& scene) {
 }
 void check_joint(const Scene& scene, Joint& joint, std::size_t index) {
     examine(Examination("joints", "joint", index, joint.name), joint, scene);
+}
+
+void note_open_joints(const Scene& scene, std::vector<std::string>& notes) {
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        const Joint& joint = scene.joints[i];
+        if (joint.broken || std::holds_alternative<Distance>(joint.kind)) continue;
+        const Frame a = frame_of(scene, joint.a), b = frame_of(scene, joint.b);
+        const dvec3 gap = (b.position + b.turn * dvec3(joint.anchor_b)) - (a.position + a.turn * dvec3(joint.anchor_a));
+        const dquat axes = glm::conjugate(a.turn * glm::normalize(double_quaternion(joint.frame_a)));
+        dvec3 held = axes * gap;  // along axes that do not move
+        if (std::holds_alternative<Slider>(joint.kind)) held.x = 0;
+        if (const auto* six = std::get_if<SixDof>(&joint.kind))
+            held *= dvec3(six->x.locked ? 1 : 0, six->y.locked ? 1 : 0, six->z.locked ? 1 : 0);
+        const double size = glm::length(dvec3(joint.anchor_a)) + glm::length(dvec3(joint.anchor_b));
+        const double apart = glm::length(held);
+        if (apart <= 1e-3 + 1e-2 * size) continue;
+        notes.push_back("/joints/" + std::to_string(i) + (joint.name.empty() ? "" : " (\"" + joint.name + "\")") +
+                        ": its anchors are " + text_of(static_cast<float>(apart)) +
+                        " m apart at the start, and the joint pulls them together; give \"anchor\", or \"anchor_a\" and "
+                        "\"anchor_b\"");
+    }
 }
 
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes) {

@@ -3,6 +3,8 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
 
 #include "compute/scene.h"
 
@@ -13,6 +15,9 @@ namespace scree {
 void check_joints(Scene& scene);
 // One joint, as the scene's at that index.
 void check_joint(const Scene& scene, Joint& joint, std::size_t index);
+
+// Remarks on joints whose anchors must coincide, and are apart at the start.
+void note_open_joints(const Scene& scene, std::vector<std::string>& notes);
 
 // Keeps anchors in place after a body's frame has moved: its origin to `centre` (m), its axes along `axes` (old frame).
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes);

@@ -214,6 +214,17 @@ MeshForm mesh_form(const HeightField& field) {
     return mesh_form(vertices, triangles);
 }
 
+// Of a closed surface, m^3; below 0 if its normals point inward.
+double volume_of(const MeshForm& form) {
+    double volume = 0;
+    for (const MeshForm::Triangle& t : form.triangles) {
+        dvec3 corners[3];
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = dvec3(t.corners[k]) + dvec3(t.middle);
+        volume += glm::dot(corners[0], glm::cross(corners[1], corners[2])) / 6;
+    }
+    return volume;
+}
+
 std::string oddities(const MeshForm& form) {
     std::string text;
     const auto say = [&](std::size_t count, const char* one, const char* many, const char* what) {
@@ -226,6 +237,9 @@ std::string oddities(const MeshForm& form) {
         " with more than two triangles, or two of opposite orientation; bodies may catch on these edges");
     say(crossing_triangles(form), "triangle", "triangles",
         " that cut through another: bodies between their faces are pushed both ways");
+    if (form.open == 0 && form.branching == 0 && volume_of(form) < 0)
+        text += (text.empty() ? "" : "; ") +
+                std::string("inside out: its faces point inward, and hold bodies inside; exchange two corners of each triangle");
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compute/scene/body_validation.h"
+#include "compute/scene/double_quaternion.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/inertial.h"
 #include "compute/scene/joint_validation.h"
@@ -28,6 +29,14 @@ void turn_surfaces(Body& b, glm::dquat back) {
             if (part.material) turn(part.material->surface_velocity);
 }
 
+// Keeps the frame in which the body was described where it is.
+void keep_origin(Body& b, const Recentred& shift) {
+    const BodyFrame before = b.origin.value_or(BodyFrame{});
+    const glm::dquat back = glm::conjugate(shift.axes);
+    b.origin = BodyFrame{vec3(back * (glm::dvec3(before.position) - shift.centre)),
+                         single_quaternion(glm::normalize(back * glm::normalize(double_quaternion(before.orientation))))};
+}
+
 void check_role(const Examination& body, const Body& b) {
     if (b.role == Role::solid) return;
     if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape))
@@ -40,6 +49,7 @@ Shift examine(const Examination& body, Body& b, CheckedShapes& shapes, std::vect
     schema::check_fields(body, b);
     const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, shapes, notes));
     if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
+    if (shift) keep_origin(b, *shift);
     if (shift) schema::check_field(body, b, schema::field_of(&Body::position));  // of the centre of mass
     check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
@@ -115,6 +125,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);
+    if (notes) note_open_joints(scene, *notes);
     check_vehicles(scene);
     check_exclusions(scene);
     add_pieces(scene);

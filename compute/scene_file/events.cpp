@@ -52,8 +52,7 @@ struct Performance {
     void operator()(const ReleaseEvent& event) const { world.remove_joint(present_joint(events, index, event.joint)); }
     void operator()(const MotorEvent& event) const {
         const std::size_t joint = present_joint(events, index, event.joint);
-        const bool slides = std::holds_alternative<Slider>(world.scene().joints.at(joint).kind);
-        world.set_motor(joint, slides ? JointAxis::x : JointAxis::twist, {event.speed, event.max_force});
+        world.set_motor(joint, main_axis(world.scene().joints.at(joint).kind), {event.speed, event.max_force});
     }
     void operator()(const GravityEvent& event) const { world.set_gravity(event.gravity); }
 };

@@ -66,6 +66,12 @@ inline constexpr auto table<Material> =
     std::apply([](auto... each) { return table_of("material", "The surface of a part", each...); }, material_fields<Material>);
 
 template <>
+inline constexpr auto table<BodyFrame> =
+    table_of("body_frame", "A frame in that of a body",
+             field("position", &BodyFrame::position, within(1e6), "m", "Position in the body's frame").written(),
+             field("orientation", &BodyFrame::orientation, "Quaternion x, y, z, w of any length but 0"));
+
+template <>
 inline constexpr auto table<Tyre> = table_of(
     "tyre",
     "Tyre friction, which depends on slip, of spheres, capsules and cylinders, also as parts; the body's friction is that at "
@@ -127,7 +133,10 @@ inline constexpr auto table<Body> = std::apply(
             field("filter", &Body::filter, "Which bodies it collides with; left out: all"),
             field("tyre", &Body::tyre,
                   "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),
-            field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"));
+            field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"),
+            field("origin", &Body::origin,
+                  "The frame in which the body was described, for what shows it; no result depends on it. Left out: the body's "
+                  "own"));
     },
     material_fields<Body>);
 

@@ -23,7 +23,8 @@ inline constexpr auto table<Spring> =
              field("stiffness", &Spring::stiffness, between(0, 1e12), "N/m or N m/rad", "Force per displacement").written(),
              field("damping", &Spring::damping, between(0, 1e12), "N s/m or N m s/rad", "Force per speed").written(),
              field("rest", &Spring::rest, within(1e6), "m or rad", "Displacement at which it exerts no force").written(),
-             field("max_force", &Spring::max_force, any_force, "N or N m", "Greatest force"));
+             field("max_force", &Spring::max_force, any_force, "N or N m", "Greatest force"),
+             field("speed", &Spring::speed, within(1e4), "m/s or rad/s", "Speed towards which it damps"));
 
 template <>
 inline constexpr auto table<Motor> =

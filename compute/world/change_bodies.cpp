@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compute/compile/state_editor.h"
+#include "compute/scene/double_quaternion.h"
 #include "compute/scene/validator.h"
 #include "compute/schema/body.h"
 #include "compute/schema/check.h"
@@ -128,6 +129,22 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
 
 void World::set_bodies(std::span<const BodyChange> changes) {
     whole().set(changes);
+}
+
+std::vector<BodyFrame> World::origins(std::span<const std::size_t> bodies) const {
+    for (const std::size_t body : bodies) whole().require_body(body);
+    whole().bring(body_ranges);
+    std::vector<BodyFrame> found;
+    for (const std::size_t body : bodies) {
+        const BodyState now = whole().body_state(body);
+        found.push_back({now.position, now.orientation});
+        const std::optional<BodyFrame>& origin = whole().scene.bodies[body].origin;
+        if (!origin) continue;
+        const glm::dquat turn = glm::normalize(double_quaternion(now.orientation));
+        found.back().position = vec3(glm::dvec3(now.position) + turn * glm::dvec3(origin->position));
+        found.back().orientation = single_quaternion(glm::normalize(turn * double_quaternion(origin->orientation)));
+    }
+    return found;
 }
 
 // Changes a body of the scene, checks it, and tells the runner.

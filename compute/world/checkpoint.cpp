@@ -28,7 +28,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 7;
+constexpr std::uint32_t format = 8;
 
 struct Head {
     char magic[8];

@@ -1,6 +1,7 @@
 // World: joints, their state and motors.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -24,11 +25,11 @@ Axis* axis_of(JointKind& kind, JointAxis axis) {
     return axes[static_cast<std::size_t>(axis)];
 }
 
+}  // namespace
+
 std::string name_of(const Joint& joint, std::size_t index) {
     return "joint " + std::to_string(index) + (joint.name.empty() ? "" : " (\"" + joint.name + "\")");
 }
-
-}  // namespace
 
 void World::Impl::require_joint_index(std::size_t joint) const {
     if (joint < scene.joints.size()) return;
@@ -55,34 +56,47 @@ JointState World::Impl::joint_state(std::size_t i) const {
     const JointAxes axes = axes_of_kind(scene.joints[i].kind);
     for (std::size_t k = 0; k < 6; ++k) found.coordinates[axes.of_record(k)] = coordinates[k];
     if (record.flags & physics::JOINT_RADIAL) found.coordinates[0] = found.gap;
+    // As the coordinates are: of a cone those of both swings, and of a distance y and z across it.
+    const physics::uint flags = record.flags & ~(physics::JOINT_CONE | physics::JOINT_RADIAL);
+    for (physics::uint k = 0; k < 6; ++k)
+        found.rates[axes.of_record(k)] =
+            speed_of_axis(state, record, k, at, k == 0 ? record.flags & ~physics::JOINT_CONE : flags);
     return found;
 }
 
-// Changes the scene, so that snapshots have it, and the runner's joint.
-void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change) {
-    require_joint(index);
-    Joint& joint = scene.joints[index];
-    Joint changed = joint;
-    Axis* const found = axis_of(changed.kind, axis);
-    if (!found || found->locked) {
-        throw std::invalid_argument(
-            name_of(joint, index) +
-            " has nothing to drive on that axis; a hinge turns about twist, a slider moves along x, and six "
-            "degrees on what is not locked");
+// Changes the scene, so that snapshots have it, and the runner's joints. All is checked first.
+void World::Impl::set_axes(std::span<const AxisChange> changes) {
+    if (changes.empty()) return;
+    std::map<std::size_t, Joint> changed;
+    for (const AxisChange& one : changes) {
+        require_joint(one.joint);
+        Joint& joint = changed.try_emplace(one.joint, scene.joints[one.joint]).first->second;
+        Axis* const found = axis_of(joint.kind, one.axis);
+        if (!found || found->locked) {
+            throw std::invalid_argument(
+                name_of(joint, one.joint) +
+                " has nothing to drive on that axis; a hinge turns about twist, a slider moves along x, and six "
+                "degrees on what is not locked");
+        }
+        one.change(*found);
     }
-    change(*found);
-    check_joint(scene, changed, index);
-    joint.kind = changed.kind;
+    TableRanges ranges;
+    for (auto& [index, joint] : changed) {
+        check_joint(scene, joint, index);
+        ranges.push_back({Table::joints, state.joint_records[index], 1});
+    }
     edits.clear();
-    const std::uint32_t record = state.joint_records[index];
-    const TableRange range{Table::joints, record, 1};
-    runner->download({range});
-    const JointAxes axes = axes_of_kind(joint.kind);
-    const std::size_t k = axes.in_record(static_cast<std::size_t>(axis));
-    set_axis_record(state.joints[record], axes, k);
-    state.joints[record].rotors[k].inertia = rotor_record(axes.axes[k]).inertia;
-    runner->upload({range});
-    wake(joint);
+    runner->download(ranges);
+    for (const auto& [index, joint] : changed) scene.joints[index].kind = joint.kind;
+    for (const AxisChange& one : changes) {
+        const JointAxes axes = axes_of_kind(scene.joints[one.joint].kind);
+        const std::size_t k = axes.in_record(static_cast<std::size_t>(one.axis));
+        physics::Joint& record = state.joints[state.joint_records[one.joint]];
+        set_axis_record(record, axes, k);
+        record.rotors[k].inertia = rotor_record(axes.axes[k]).inertia;
+    }
+    runner->upload(ranges);
+    for (const auto& [index, joint] : changed) wake(joint);
 }
 
 void World::Impl::wake(const Joint& joint) {
@@ -106,19 +120,48 @@ std::vector<JointState> World::joints() const {
 }
 
 void World::set_motor(std::size_t joint, JointAxis axis, const Motor& motor) {
-    whole().set_axis(joint, axis, [&](Axis& a) {
-        a.spring.reset();
-        a.friction = 0;
-        a.motor = motor;
-    });
+    const Impl::AxisChange one{joint, axis, [&](Axis& a) {
+                                   a.friction = 0;
+                                   a.motor = motor;
+                                   if (a.spring && motor.max_force == 0) a.motor.reset();
+                               }};
+    whole().set_axes({&one, 1});
 }
 
 void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) {
-    whole().set_axis(joint, axis, [&](Axis& a) {
-        a.motor.reset();
-        a.friction = 0;
-        a.spring = spring;
-    });
+    const Impl::AxisChange one{joint, axis, [&](Axis& a) { a.spring = spring; }};
+    whole().set_axes({&one, 1});
+}
+
+void World::set_drives(std::span<const JointDrive> drives) {
+    std::vector<Impl::AxisChange> changes;
+    for (const JointDrive& drive : drives)
+        changes.push_back({drive.joint, drive.axis, [drive](Axis& axis) {
+                               Spring spring = axis.spring.value_or(Spring{});
+                               spring.stiffness = drive.stiffness.value_or(spring.stiffness);
+                               spring.damping = drive.damping.value_or(spring.damping);
+                               spring.rest = drive.target.value_or(spring.rest);
+                               spring.speed = drive.target_speed.value_or(spring.speed);
+                               spring.max_force = drive.max_force.value_or(spring.max_force);
+                               axis.spring = spring;
+                               axis.motor.reset();
+                           }});
+    whole().set_axes(changes);
+}
+
+Axis World::joint_axis(std::size_t joint, JointAxis axis) const {
+    whole().require_joint_index(joint);
+    const JointAxes axes = axes_of_kind(whole().scene.joints[joint].kind);
+    return axes.axes[axes.in_record(static_cast<std::size_t>(axis))];
+}
+
+void World::set_joint_coordinates(std::span<const JointCoordinate> coordinates) {
+    whole().set_joint_coordinates(coordinates);
+}
+
+JointAxis main_axis(const JointKind& kind) {
+    const bool along = std::holds_alternative<Slider>(kind) || std::holds_alternative<Distance>(kind);
+    return along ? JointAxis::x : JointAxis::twist;
 }
 
 void World::apply_joint_forces(std::span<const JointForce> forces) {

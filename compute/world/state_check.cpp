@@ -136,6 +136,7 @@ private:
     void check_shape(std::size_t row, const physics::BodyProperties& body) {
         const bool hull = body.shape == physics::SHAPE_HULL, triangle = body.shape == physics::SHAPE_TRIANGLE;
         require(body.shape <= physics::SHAPE_NONE, "row", row, "has a shape that is not known");
+        require(body.shape != physics::SHAPE_NONE || !physics::is_large(body), "row", row, "is large and has no shape");
         if ((hull || triangle) && known_hulls_.insert({body.shape_data, triangle}).second)
             require(is_hull(body.shape_data, triangle), "row", row, "has a hull that does not fit the table of hulls");
         require(physics::tyre_of(body) <= saved_.at_start.tyres + saved_.tyres.size(), "row", row,

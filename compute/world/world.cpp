@@ -211,16 +211,26 @@ int World::Impl::steps_alone(int count) {
     return static_cast<int>(steps - before);
 }
 
+namespace {
+
+std::unique_ptr<Runner> required(std::unique_ptr<Runner> runner) {
+    if (!runner) throw std::invalid_argument("World: there is no runner; make_reference_runner() makes one on the CPU");
+    return runner;
+}
+
+}  // namespace
+
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
     : World(Scene(scene), settings, std::move(runner)) {}
 World::World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : impl_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings), std::move(runner),
-                                   0)) {}
+    : impl_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings),
+                                   required(std::move(runner)), 0)) {}
 World::World(const StreamedScene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : impl_(Impl::of_streamed(scene, settings, std::move(runner))) {}
+    : impl_(Impl::of_streamed(scene, settings, required(std::move(runner)))) {}
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
              const VaryCopy& vary)
-    : impl_(std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), std::move(runner), copies)) {}
+    : impl_(std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), required(std::move(runner)),
+                                   copies)) {}
 World::World(const Scene& scene, const Settings& settings, int threads)
     : World(scene, settings, make_reference_runner(threads)) {}
 World::Impl& World::whole() const {
@@ -234,6 +244,7 @@ World& World::operator=(World&&) noexcept = default;
 void World::step(int count) {
     constexpr int most_alone = 64;  // between them the memory order is checked
     Impl& in = local();
+    if (count < 0) throw std::invalid_argument("step: " + std::to_string(count) + " steps; the number must not be negative");
     while (count > 0) {
         if (in.is_still()) return in.pass_over(count);
         in.step();

@@ -29,6 +29,8 @@ namespace scree {
 
 class ShareStart;  // compute/world/share_start.h
 
+std::string name_of(const Joint& joint, std::size_t index);  // for messages
+
 struct World::Impl {
     struct Held {
         std::size_t body = 0;
@@ -180,7 +182,14 @@ struct World::Impl {
     bool is_joint_gone(std::size_t joint) const { return joint < joints_gone.size() && joints_gone[joint]; }
     void apply_joint_force(const JointForce& one);
     void wake(const Joint& joint);  // wakes its bodies in the next step
-    void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
+    struct AxisChange {
+        std::size_t joint = 0;
+        JointAxis axis = JointAxis::twist;
+        std::function<void(Axis&)> change;
+    };
+    void set_axes(std::span<const AxisChange> changes);
+    // joint_coordinates.cpp
+    void set_joint_coordinates(std::span<const JointCoordinate> coordinates);
 
     // vehicles.cpp
     void require_vehicle(std::size_t vehicle) const;  // throws std::out_of_range

@@ -20,6 +20,7 @@ const std::vector<std::string> moving = {
 const std::vector<std::string> heaps = {"pile",    "mix",     "avalanche", "assortment", "mix1m",   "bins",
                                         "overlap", "terrain", "mesh",      "calm",       "fountain"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
+const std::vector<std::string> monuments = {"gables", "net", "ring"};
 const std::vector<std::string> sleepers = {"pile1m"};
 const std::vector<std::string> jointed = {"chain", "bridge", "machine", "pendulums", "ragdolls"};
 const std::vector<std::string> driven = {"drive", "cars", "roadtest"};
@@ -52,8 +53,8 @@ void check_kept(const std::vector<std::string>& names, float offset = 0) {
 
 TEST_CASE("every demo is held to its promise here, or takes minutes") {
     std::vector<std::string> held, all;
-    for (const auto* group :
-         {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &jointed, &driven, &breaking, &splintering, &large})
+    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &monuments, &sleepers, &jointed, &driven, &breaking,
+                              &splintering, &large})
         held.insert(held.end(), group->begin(), group->end());
     for (const demos::Demo& demo : demos::all_demos()) all.emplace_back(demo.name);
     std::sort(held.begin(), held.end());
@@ -109,6 +110,10 @@ TEST_CASE("cars brake, accelerate, corner and park as the formulas say") {
 
 TEST_CASE("the wall keeps its promise", "[long]") {
     check_kept({buildings[0]});
+}
+
+TEST_CASE("rings, gables and nets as others show them keep their promises", "[long]") {
+    check_kept(monuments);
 }
 
 TEST_CASE("the pyramid keeps its promise", "[long]") {

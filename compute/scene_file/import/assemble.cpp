@@ -41,6 +41,13 @@ std::vector<std::optional<Filter>> filters_of(const Model& model) {
     return filters;
 }
 
+// Keeps the frame of what the file describes, in which the body's own is `frame`.
+void keep_origin(Body& body, const Placed& frame) {
+    const Placed origin = inverse(frame);
+    if (frame.position == dvec3(0) && frame.turn == dquat(1, 0, 0, 0)) return;
+    body.origin = BodyFrame{vec3(origin.position), single_quaternion(glm::normalize(origin.turn))};
+}
+
 void place(Body& body, const Placed& placed) {
     body.position = vec3(placed.position);
     body.orientation = single_quaternion(glm::normalize(placed.turn));
@@ -127,6 +134,8 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
             const dvec3 normal = placed.turn * dvec3(plane->normal);
             *plane = {vec3(normal), static_cast<float>(glm::dot(normal, placed.position))};
             place(body, {});
+        } else {
+            keep_origin(body, one.placed);
         }
         add(std::move(body), one.origin);
     }
@@ -161,6 +170,7 @@ void add_moving(Assembly& all, std::size_t index, const Carried& carried, const 
     Body body{.name = from.name, .motion = from.kinematic ? Motion::kinematic : Motion::dynamic};
     const Placed frame = all.frames[index] = give_shape(body, carried.shapes, filters);
     place(body, all.root * start.placed * frame);
+    keep_origin(body, frame);
     if (!from.kinematic) {
         const SolidMass mass = completed(carried, from.origin, all.notes);
         body.inertial = inertial_of(placed_mass(mass, inverse(frame)), from.origin);
@@ -268,11 +278,13 @@ Scene assemble(const Model& model, const ImportOptions& options, Notes& notes) {
         add_joints(all);
         std::vector<std::string> remarks;
         const Scene made = checked(all.scene, &remarks);
-        for (const std::string& remark : remarks) {  // "/bodies/7/shape/...: words"
+        for (const std::string& remark : remarks) {  // "/bodies/7/shape/...: words", "/joints/7: words"
+            const bool of_joint = remark.starts_with("/joints/");
+            const std::vector<Origin>& origins = of_joint ? all.joint_origins : all.origins;
             const std::size_t index = std::strtoull(remark.c_str() + 8, nullptr, 10);
             const std::size_t words = remark.find(": ");
-            if (index < all.origins.size() && words != remark.npos)
-                notes.add(all.origins[index], "shape", remark.substr(words + 2));
+            if (index < origins.size() && words != remark.npos)
+                notes.add(origins[index], of_joint ? "joint" : "shape", remark.substr(words + 2));
         }
         if (options.ground) add_ground(all.scene, made, model.z_up && !turned);
     } catch (const SceneError& error) {

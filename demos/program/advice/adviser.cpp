@@ -93,8 +93,9 @@ bool is_driven_by_more(const Scene& scene) {
         const bool is_hinge = std::holds_alternative<Hinge>(joint.kind);
         bool any = false;
         for_each_spring(joint, [&](JointAxis axis, const std::optional<Spring>& spring, const std::optional<Motor>& motor) {
-            any |= motor.has_value() || (spring && spring->stiffness > 0 &&
-                                         (spring->max_force < unlimited || (axis >= JointAxis::twist && !is_hinge)));
+            any |=
+                motor.has_value() || (spring && spring->speed != 0) ||
+                (spring && spring->stiffness > 0 && (spring->max_force < unlimited || (axis >= JointAxis::twist && !is_hinge)));
         });
         return any;
     };

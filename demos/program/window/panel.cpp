@@ -188,6 +188,7 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     ImGui::Begin("scree", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PushItemWidth(ems(11.3f));
+    ImGui::SetNextItemWidth(ems(8));  // the widest line: the panel leaves more than half of a window of 800 pixels free
     choose_demo(session, interaction);
     ImGui::SameLine();
     if (ImGui::SmallButton("next (Tab)")) interaction.open_next(1);

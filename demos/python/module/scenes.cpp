@@ -265,6 +265,18 @@ void bind_description(py::module_& module) {
                         : list == "vehicles" ? in.vehicles.size()
                                              : scene.document.events.size();
              })
+        .def("names",
+             [](const Description& scene, const std::string& list) {
+                 std::vector<std::string> names;
+                 const auto add = [&](const auto& things) {
+                     for (const auto& one : things) names.push_back(one.name);
+                 };
+                 const Scene& in = scene.document.scene;
+                 if (list == "bodies") add(in.bodies);
+                 if (list == "joints") add(in.joints);
+                 if (list == "vehicles") add(in.vehicles);
+                 return names;
+             })
         .def("body_name", [](const Description& scene, std::size_t i) { return scene.document.scene.bodies.at(i).name; })
         .def("vehicle_bodies",
              [](const Description& scene, std::size_t i) {
@@ -280,6 +292,16 @@ void bind_description(py::module_& module) {
                  return scene_to_json(empty, scene.document.viewpoint);
              })
         .def("to_json", [](const Description& scene) { return scene_to_json(scene.document); })
+        .def("whole_json",  // with the meshes of files, wherever it is read
+             [](const Description& scene) {
+                 SceneDocument whole = scene.document;
+                 for (Body& body : whole.scene.bodies)
+                     if (auto* mesh = std::get_if<Mesh>(&body.shape); mesh && !mesh->vertices.empty()) {
+                         mesh->file.clear();
+                         mesh->scale = 1;
+                     }
+                 return scene_to_json(whole);
+             })
         .def("save", [](const Description& scene,
                         const std::string& path) { host::write_atomically(path, scene_to_json(scene.document)); })
         .def("scene_hash", [](const Description& scene) { return hash_text(hash_of(checked(scene.document.scene))); })

@@ -2,6 +2,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -105,6 +107,96 @@ JointAxis axis_named(const std::string& name) {
     return static_cast<JointAxis>(found - words.begin());
 }
 
+// Without a name that of each joint which it moves along or about.
+JointAxis axis_named(const std::string& name, const World& world, std::size_t joint) {
+    return name.empty() ? main_axis(world.scene().joints.at(joint).kind) : axis_named(name);
+}
+
+std::vector<std::size_t> joints_of(const Indices& joints, const World& world) {
+    const std::size_t count = world.scene().joints.size();
+    std::vector<std::size_t> made;
+    for (py::ssize_t i = 0; i < joints.size(); ++i) {
+        const std::int64_t joint = joints.data()[i];
+        if (joint < 0 || static_cast<std::size_t>(joint) >= count)
+            throw py::index_error("joint " + std::to_string(joint) + " of " + std::to_string(count));
+        made.push_back(static_cast<std::size_t>(joint));
+    }
+    return made;
+}
+
+using MaybeFloats = std::optional<Floats>;
+
+std::optional<float> value_at(const MaybeFloats& values, std::size_t i) {
+    if (!values) return std::nullopt;
+    return values->data()[i];
+}
+float force_at(const Floats& values, std::size_t i) {
+    return values.data()[i] == std::numeric_limits<float>::infinity() ? unlimited : values.data()[i];
+}
+
+void set_motors(WorldObject& object, const Indices& joints, const std::string& axis, const Floats& speed,
+                const Floats& max_force) {
+    Use world(object);
+    const std::vector<std::size_t> named = joints_of(joints, *world);
+    require_shape(speed, joints.size(), 0, "speed");
+    require_shape(max_force, joints.size(), 0, "max_force");
+    for (std::size_t i = 0; i < named.size(); ++i)
+        world->set_motor(named[i], axis_named(axis, *world, named[i]), {speed.data()[i], force_at(max_force, i)});
+}
+
+void set_springs(WorldObject& object, const Indices& joints, const std::string& axis, const std::string& spring) {
+    Use world(object);
+    const Spring made = value_of<Spring>(spring, "spring");
+    for (const std::size_t joint : joints_of(joints, *world)) world->set_spring(joint, axis_named(axis, *world, joint), made);
+}
+
+void set_drives(WorldObject& object, const Indices& joints, const std::string& axis, const MaybeFloats& stiffness,
+                const MaybeFloats& damping, const MaybeFloats& target, const MaybeFloats& target_speed,
+                const MaybeFloats& max_force) {
+    Use world(object);
+    const std::vector<std::size_t> named = joints_of(joints, *world);
+    const std::pair<const MaybeFloats*, const char*> given[] = {{&stiffness, "stiffness"},
+                                                                {&damping, "damping"},
+                                                                {&target, "target"},
+                                                                {&target_speed, "target_speed"},
+                                                                {&max_force, "max_force"}};
+    for (const auto& [values, name] : given)
+        if (*values) require_shape(**values, joints.size(), 0, name);
+    std::vector<JointDrive> drives(named.size());
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        drives[i].joint = named[i];
+        drives[i].axis = axis_named(axis, *world, named[i]);
+        drives[i].stiffness = value_at(stiffness, i);
+        drives[i].damping = value_at(damping, i);
+        drives[i].target = value_at(target, i);
+        drives[i].target_speed = value_at(target_speed, i);
+        if (max_force) drives[i].max_force = force_at(*max_force, i);
+    }
+    world->set_drives(drives);
+}
+
+void set_joint_coordinates(WorldObject& object, const Indices& joints, const std::string& axis, const MaybeFloats& coordinate,
+                           const MaybeFloats& rate) {
+    Use world(object);
+    const std::vector<std::size_t> named = joints_of(joints, *world);
+    if (coordinate) require_shape(*coordinate, joints.size(), 0, "coordinate");
+    if (rate) require_shape(*rate, joints.size(), 0, "rate");
+    std::vector<JointCoordinate> all(named.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = {named[i], axis_named(axis, *world, named[i]), value_at(coordinate, i), value_at(rate, i)};
+    const py::gil_scoped_release unlocked;
+    world->set_joint_coordinates(all);
+}
+
+void apply_joint_forces(WorldObject& object, const Indices& joints, const std::string& axis, const Floats& force) {
+    Use world(object);
+    const std::vector<std::size_t> named = joints_of(joints, *world);
+    require_shape(force, joints.size(), 0, "force");
+    std::vector<JointForce> forces(named.size());
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = {named[i], axis_named(axis, *world, named[i]), force.data()[i]};
+    world->apply_joint_forces(forces);
+}
+
 Motion motion_named(const std::string& name) {
     const Names words(schema::words<Motion>.begin(), schema::words<Motion>.end());
     const auto found = std::find(words.begin(), words.end(), name);
@@ -182,14 +274,11 @@ void bind_bodies(WorldClass& of_world) {
 void bind_joints(WorldClass& of_world) {
     of_world.def("add_joint", &add_joint_to_world)
         .def("remove_joint", [](WorldObject& object, std::size_t joint) { Use(object)->remove_joint(joint); })
-        .def("set_motor",
-             [](WorldObject& object, std::size_t joint, const std::string& axis, float speed, float max_force) {
-                 Use(object)->set_motor(joint, axis_named(axis), {speed, max_force});
-             })
-        .def("set_spring",
-             [](WorldObject& object, std::size_t joint, const std::string& axis, const std::string& spring) {
-                 Use(object)->set_spring(joint, axis_named(axis), value_of<Spring>(spring, "spring"));
-             })
+        .def("set_motors", &set_motors)
+        .def("set_springs", &set_springs)
+        .def("set_drives", &set_drives)
+        .def("set_joint_coordinates", &set_joint_coordinates)
+        .def("apply_joint_forces", &apply_joint_forces)
         .def("drive",
              [](WorldObject& object, std::size_t vehicle, float throttle, float brake, float steer, float hand_brake) {
                  Use(object)->drive(vehicle, {throttle, brake, steer, hand_brake});

@@ -1,5 +1,7 @@
 // Worlds: contacts, events, joints and vehicles as structured arrays.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "demos/python/module/world_object.h"
@@ -29,7 +31,11 @@ struct SensedRecord {
 struct JointRecord {
     float force[3], torque[3], max_force, max_torque;
     bool broken;
-    float gap, coordinates[6];
+    float gap, coordinates[6], rates[6];
+};
+struct DriveRecord {
+    float stiffness, damping, target, target_speed, max_force, motor_speed, motor_force, friction, armature, lower, upper;
+    bool locked;
 };
 struct VehicleRecord {
     float throttle, brake, steer, hand_brake, speed, curvature;
@@ -95,7 +101,37 @@ JointRecord record_of(const JointState& j) {
     r.broken = j.broken;
     r.gap = j.gap;
     std::copy(j.coordinates.begin(), j.coordinates.end(), r.coordinates);
+    std::copy(j.rates.begin(), j.rates.end(), r.rates);
     return r;
+}
+
+DriveRecord record_of(const Axis& axis) {
+    const Spring spring = axis.spring.value_or(Spring{});
+    const Motor motor = axis.motor.value_or(Motor{});
+    const Limits limits = axis.limits.value_or(Limits{-unlimited, unlimited});
+    const auto bound = [](float value) {
+        return std::abs(value) >= unlimited ? std::copysign(std::numeric_limits<float>::infinity(), value) : value;
+    };
+    return {spring.stiffness,       spring.damping, spring.rest,   spring.speed,        bound(spring.max_force), motor.speed,
+            bound(motor.max_force), axis.friction,  axis.armature, bound(limits.lower), bound(limits.upper),     axis.locked};
+}
+
+// Of the axis of that number, or below 0 of that along or about which each joint moves.
+py::array drives(WorldObject& object, int axis) {
+    Use world(object);
+    std::vector<Axis> axes;
+    const std::vector<Joint>& joints = world->scene().joints;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        axes.push_back(world->joint_axis(i, axis < 0 ? main_axis(joints[i].kind) : static_cast<JointAxis>(axis)));
+    return records_of(axes, [](const Axis& one) { return record_of(one); });
+}
+
+py::list joint_names(WorldObject& object) {
+    Use world(object);
+    py::list names;
+    const std::vector<Joint>& joints = world->scene().joints;
+    for (std::size_t i = 0; i < joints.size() / world->copies(); ++i) names.append(joints[i].name);
+    return names;
 }
 
 VehicleRecord record_of(const VehicleState& v) {
@@ -123,14 +159,20 @@ void bind_records(py::module_& module, WorldClass& of_world) {
     PYBIND11_NUMPY_DTYPE(EventRecord, step, kind, a, a_generation, b, b_generation, part_a, part_b, joint, speed, impulse, point,
                          normal);
     PYBIND11_NUMPY_DTYPE(SensedRecord, sensor, body, sensor_part, part);
-    PYBIND11_NUMPY_DTYPE(JointRecord, force, torque, max_force, max_torque, broken, gap, coordinates);
+    PYBIND11_NUMPY_DTYPE(JointRecord, force, torque, max_force, max_torque, broken, gap, coordinates, rates);
+    PYBIND11_NUMPY_DTYPE(DriveRecord, stiffness, damping, target, target_speed, max_force, motor_speed, motor_force, friction,
+                         armature, lower, upper, locked);
     PYBIND11_NUMPY_DTYPE(VehicleRecord, throttle, brake, steer, hand_brake, speed, curvature, by_route, passed, next, arrived);
     module.attr("contact_dtype") = py::dtype::of<ContactRecord>();
     module.attr("event_dtype") = py::dtype::of<EventRecord>();
     module.attr("joint_dtype") = py::dtype::of<JointRecord>();
+    module.attr("drive_dtype") = py::dtype::of<DriveRecord>();
     module.attr("vehicle_dtype") = py::dtype::of<VehicleRecord>();
     of_world.def("contacts", [](WorldObject& object) { return state_records(Use(object)->contacts()); })
         .def("joints", [](WorldObject& object) { return state_records(Use(object)->joints()); })
+        .def("drives", &drives)
+        .def("joint_names", &joint_names)
+        .def("joint_count", [](WorldObject& object) { return Use(object)->scene().joints.size(); })
         .def("vehicles", [](WorldObject& object) { return state_records(Use(object)->vehicles()); })
         .def("take_events", [](WorldObject& object) { return state_records(Use(object)->take_events()); })
         .def("records_events", [](WorldObject& object) { return Use(object)->event_settings().any(); })

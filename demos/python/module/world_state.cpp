@@ -2,6 +2,7 @@
 #include <pybind11/eval.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 
@@ -122,6 +123,30 @@ Floats touch_forces(WorldObject& object, const Indices& ids) {
     return made;
 }
 
+// Positions and orientations.
+py::tuple origins(WorldObject& object, const Indices& ids) {
+    Use world(object);
+    const std::vector<BodyFrame> frames = world->origins(indices_of(ids, *world));
+    Floats position({static_cast<py::ssize_t>(frames.size()), py::ssize_t{3}});
+    Floats orientation({static_cast<py::ssize_t>(frames.size()), py::ssize_t{4}});
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        for (glm::length_t k = 0; k < 3; ++k)
+            position.mutable_data()[3 * i + static_cast<std::size_t>(k)] = frames[i].position[k];
+        for (glm::length_t k = 0; k < 4; ++k)
+            orientation.mutable_data()[4 * i + static_cast<std::size_t>(k)] = frames[i].orientation[k];
+    }
+    return py::make_tuple(position, orientation);
+}
+
+Floats masses(WorldObject& object) {
+    Use world(object);
+    const std::vector<Body>& bodies = world->scene().bodies;
+    Floats made(static_cast<py::ssize_t>(bodies.size()));
+    std::transform(bodies.begin(), bodies.end(), made.mutable_data(),
+                   [](const Body& body) { return mass_properties(body).mass; });
+    return made;
+}
+
 // ---- views
 // Keeps the world, and notes that an array looks into its tables.
 struct Token {
@@ -181,6 +206,8 @@ void bind_state(WorldClass& of_world) {
         .def("set", &set)
         .def("apply", &apply)
         .def("touch_forces", &touch_forces)
+        .def("origins", &origins)
+        .def("masses", &masses)
         .def("row_of", [](WorldObject& object, std::size_t body) { return Use(object)->row_of(body); });
 }
 

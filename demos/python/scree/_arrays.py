@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Optional
+import operator
+from typing import Any, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from scree._errors import SceneError
 
+Array = npt.NDArray[Any]
 Floats = npt.NDArray[np.float32]
 Ids = npt.NDArray[np.int64]
 
@@ -22,6 +24,8 @@ def json_text(value: Any, where: str = "") -> str:
             return one.tolist()
         if isinstance(one, np.generic):
             return one.item()
+        if isinstance(one, type):
+            raise TypeError(f"{where or 'value'}: is the class {one.__name__}; make one: {one.__name__}(...)")
         if hasattr(one, "to_dict"):
             return one.to_dict()
         raise TypeError(f"{where or 'value'}: {type(one).__name__} has no place in a scene")
@@ -34,18 +38,74 @@ def json_text(value: Any, where: str = "") -> str:
 
 def vectors(value: Any, count: int, width: int, name: str) -> Floats:
     """(count, width) float32 of an array of that shape or of one row; width 0: (count,) of that or of one number."""
-    array: Floats = np.asarray(value, dtype=np.float32)
+    array: Floats = floats(value, name)
     shape = (count, width) if width else (count,)
-    try:
+    if array.shape in ((shape, (1, width), (width,)) if width else (shape, (1,), ())):
         return np.ascontiguousarray(np.broadcast_to(array, shape))
+    wanted = f"({count}, {width}) or ({width},)" if width else f"({count},) or ()"
+    raise ValueError(f"{name}: has the shape {array.shape}, should have {wanted}")
+
+
+def floats(value: Any, name: str) -> Floats:
+    """An array of float32; TypeError for what holds no numbers."""
+    try:
+        array: Floats = np.asarray(value, dtype=np.float32)
+    except (TypeError, ValueError):
+        kind = f"{value!r}" if isinstance(value, str) else type(value).__name__
+        raise TypeError(f"{name}: is made of numbers, not {kind}") from None
+    return array
+
+
+def whole(value: Any, name: str) -> int:
+    """A whole number, also of numpy's; TypeError for others."""
+    try:
+        if not isinstance(value, (bool, np.bool_)):
+            return operator.index(value)
+    except TypeError:
+        pass
+    raise TypeError(f"{name}: is a whole number, not {value!r}")
+
+
+def index(value: Any, name: str) -> int:
+    """A whole number from 0 on; IndexError for one below."""
+    found = whole(value, name)
+    if found < 0:
+        raise IndexError(f"{name} {found}: numbers count from 0")
+    return found
+
+
+def count_of(value: Any, name: str, most: int = 2147483647) -> int:
+    """A whole number from 0 to `most`; ValueError for others."""
+    found = whole(value, name)
+    if not 0 <= found <= most:
+        raise ValueError(f"{name}: is {found}; must be 0 to {most}")
+    return found
+
+
+def number(value: Any, name: str) -> float:
+    """A number; TypeError for what is none."""
+    try:
+        if not isinstance(value, str):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name}: is a number, not {value!r}")
+
+
+def each(value: Optional[Any], shape: Tuple[int, ...], name: str) -> Optional[Floats]:
+    """One number for each item of `shape`, one after the other, of numbers that broadcast to it."""
+    if value is None:
+        return None
+    array = floats(value, name)
+    try:
+        return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
     except ValueError:
-        wanted = f"({count}, {width}) or ({width},)" if width else f"({count},) or ()"
-        raise ValueError(f"{name}: has the shape {array.shape}, should have {wanted}") from None
+        raise ValueError(f"{name}: has the shape {array.shape}, should have {shape} or ()") from None
 
 
 def triple(value: Any, name: str) -> Floats:
     """Three numbers."""
-    array: Floats = np.asarray(value, dtype=np.float32)
+    array: Floats = floats(value, name)
     if array.shape != (3,):
         raise ValueError(f"{name}: has the shape {array.shape}, should have (3,)")
     return array
@@ -82,6 +142,23 @@ def unit(directions: Floats, name: str) -> Floats:
         return directions
     made = directions.copy()
     made[off] = (wide[off] / np.sqrt(squared[off])[:, None]).astype(np.float32)
+    return made
+
+
+def turned(turns: Array, then: Array) -> Array:
+    """Products of quaternions x, y, z, w, (n, 4)."""
+    a, b = turns[:, :3], then[:, :3]
+    made = np.empty_like(turns)
+    made[:, :3] = turns[:, 3:] * b + then[:, 3:] * a + np.cross(a, b)
+    made[:, 3] = turns[:, 3] * then[:, 3] - np.einsum("ij,ij->i", a, b)
+    return made
+
+
+def rotated(turns: Array, points: Array) -> Array:
+    """Points, (n, 3), turned by quaternions of length 1."""
+    axis = turns[:, :3]
+    once = 2 * np.cross(axis, points)
+    made: Array = points + turns[:, 3:] * once + np.cross(axis, once)
     return made
 
 

@@ -19,12 +19,16 @@ class Limits(_Described):
 
 @dataclass(frozen=True)
 class Spring(_Described):
-    """A spring and damper towards rest. stiffness: N/m or N m/rad; damping: N s/m or N m s/rad; rest: m or rad."""
+    """A spring and damper towards rest. stiffness: N/m or N m/rad; damping: N s/m or N m s/rad; rest: m or rad; max_force: N or N m.
+
+    speed: m/s or rad/s, towards which it damps.
+    """
 
     stiffness: float = 0.0
     damping: float = 0.0
     rest: float = 0.0
     max_force: Optional[float] = None
+    speed: Optional[float] = None
 
 
 @dataclass(frozen=True)

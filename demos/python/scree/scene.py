@@ -11,7 +11,8 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from scree import _native
-from scree._arrays import Ids, json_text, triple, vectors
+from scree._arrays import Ids, count_of, floats, json_text, number, triple, vectors, whole
+from scree._errors import SceneError
 from scree.camera import Camera
 from scree.joints import JointKind
 from scree.shapes import HeightField, Mesh, Plane, Shape, Vector
@@ -43,6 +44,23 @@ def _count_of(columns: typing.Mapping[str, Any]) -> Optional[int]:
     return next(iter(counts.values()), None)
 
 
+def _density_of(shape: Shape, mass: Any) -> Any:
+    """The density, or densities, at which a shape has that mass."""
+    kilograms = floats(mass, "mass").astype(np.float64)
+    body = json_text({"shape": shape, "motion": "fixed"}, "/bodies/0")
+    volume, twice = (_native.mass_properties(body, density)[0] for density in (1.0, 2.0))
+    if volume <= 0:
+        raise ValueError(f"mass: a {type(shape).__name__} has none")
+    if abs(twice - 2 * volume) > 1e-5 * twice:
+        raise ValueError("mass: parts have densities of their own; leave these out, or give inertial={...}")
+    density = kilograms / volume
+    wrong = ~((density >= 1e-3) & (density <= 1e6))
+    if np.any(wrong):
+        raise ValueError(f"mass: {kilograms[wrong].flat[0]:g} kg in {volume:g} m^3 is a density out of 0.001 to 1,000,000 kg/m^3; "
+                         "inertial={...} gives any mass, and World.set_mass changes it later")
+    return density.astype(np.float32) if density.ndim else float(density)
+
+
 class Scene:
     """Bodies, joints and vehicles to simulate, in SI units, y up.
 
@@ -62,19 +80,31 @@ class Scene:
         return made
 
     # ---- bodies
-    def add(self, shape: Shape, position: Optional[Any] = None, *, motion: Optional[str] = None, **fields: Any) -> Any:
+    def add(self, shape: Shape, position: Optional[Any] = None, *, motion: Optional[str] = None, mass: Optional[Any] = None,
+            **fields: Any) -> Any:
         """Adds a body, or many that are alike, in one call.
 
         position: (3,) or (n, 3), of the centre of mass, m; of hulls, compounds and meshes of the origin of their points.
         orientation: (4,) or (n, 4), x, y, z, w. velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
         motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
-        density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping, angular_damping (1/s),
+        mass: kg, a number or (n,), in place of density: the scene gets the density that gives it. density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping, angular_damping (1/s),
         gravity_scale: numbers or (n,). name, filter, tyre, fracture, inertial, role ("sensor", "drawn") and every other key of a body in a scene file: of all.
 
         Returns the id of the body; of many their ids, (n,) int64. Ids count bodies from 0 and do not change.
         Raises SceneError, whose `pointer` names the value, here or when a World is made; TypeError for an unknown key.
         """
         require_keys(fields, _native.keys("body"), "a body")
+        if not isinstance(shape, Shape):
+            raise TypeError(f"shape: is the class {shape.__name__}; make one: scree.{shape.__name__}()" if isinstance(shape, type)
+                            else f"shape: is a shape, such as scree.Box(), not {type(shape).__name__}")
+        if mass is not None:
+            if fields.get("density") is not None or fields.get("inertial") is not None:
+                raise ValueError("mass: is given by density or inertial already; leave one out")
+            fields["density"] = _density_of(shape, mass)
+        inertial = fields.get("inertial")
+        if isinstance(inertial, dict) and "mass" in inertial and "inertia" not in inertial:
+            where = f"/bodies/{len(self)}/inertial"
+            raise SceneError(f'{where}: lacks "inertia", (3,), kg m^2; mass= gives a mass, and the shape the rest', where)
         columns: Dict[str, Any] = {key: fields.pop(key) for key in list(fields) if key in _VECTORS and fields[key] is not None}
         if position is not None:
             columns["position"] = position
@@ -94,17 +124,44 @@ class Scene:
         """The number of bodies."""
         return self._native.count("bodies")
 
-    def __getitem__(self, name: str) -> int:
-        """The id of the first body of that name; raises KeyError."""
-        return self._named("bodies", name)
+    def __iter__(self) -> typing.Iterator[int]:
+        """The ids of the bodies."""
+        return iter(range(len(self)))
+
+    def __contains__(self, body: object) -> bool:
+        """Whether there is a body of that name, or id."""
+        if isinstance(body, str):
+            return self._native.index_of("bodies", body) is not None
+        return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
+
+    def __getitem__(self, name: Union[str, int]) -> int:
+        """The id of the first body of that name, or the id itself; raises KeyError, and IndexError. joint() finds joints."""
+        if isinstance(name, str):
+            return self._named("bodies", name)
+        body = whole(name, "body")
+        if not 0 <= body < len(self):
+            raise IndexError(f"body {body} of {len(self)}")
+        return body
+
+    @property
+    def names(self) -> List[str]:
+        """The names of the bodies, by id; "" without one."""
+        return self._native.names("bodies")
 
     def _named(self, things: str, name: Any) -> int:
+        one = {"bodies": "body", "joints": "joint", "vehicles": "vehicle"}
         if not isinstance(name, str):
-            return int(name)
+            return whole(name, one[things])
         found = self._native.index_of(things, name)
-        if found is None:
-            raise KeyError(name)
-        return found
+        if found is not None:
+            return found
+        for other in ("joints", "bodies"):
+            elsewhere = self._native.index_of(other, name) if other != things else None
+            if elsewhere is not None:
+                how = f'scene.joint("{name}")' if other == "joints" else f'scene["{name}"]'
+                raise KeyError(f'no {one[things]} is named "{name}", but {one[other]} {elsewhere} is: {how}')
+        near = difflib.get_close_matches(name, [known for known in self._native.names(things) if known], 1)
+        raise KeyError(f'no {one[things]} is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
 
     # ---- joints
     def add_joint(self, kind: JointKind, a: Union[int, str, None] = None, b: Union[int, str, None] = None, *,
@@ -126,9 +183,18 @@ class Scene:
                 joint[key] = triple(value, key)
         return self._native.add_joint(json_text(joint, f"/joints/{self._native.count('joints')}"))
 
+    def joint(self, name: str) -> int:
+        """The index of the first joint of that name; raises KeyError."""
+        return self._named("joints", name)
+
+    @property
+    def joint_names(self) -> List[str]:
+        """The names of the joints, by index; "" without one."""
+        return self._native.names("joints")
+
     def exclude(self, a: Union[int, str], b: Union[int, str]) -> None:
         """Bodies a and b never collide with each other."""
-        self._native.add_exclusion(self._named("bodies", a), self._named("bodies", b))
+        self._native.add_exclusion(self[a], self[b])
 
     # ---- vehicles
     def add_car(self, position: Vector = (0.0, 0.0, 0.0), heading: float = 0.0, **fields: Any) -> int:
@@ -137,11 +203,11 @@ class Scene:
         position: (3,), on the ground between its wheels, m; heading: rad, about y, 0 along z.
         name, speed (m/s), size, density, friction, brake, hertz, damping_ratio: see Car in compute/vehicle_presets.h.
         """
-        return self._native.add_car({"position": triple(position, "position"), "heading": heading, **fields})
+        return self._native.add_car({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields})
 
     def add_cart(self, position: Vector = (0.0, 0.0, 0.0), heading: float = 0.0, **fields: Any) -> int:
         """Adds a cart that steers like a tank, and returns the vehicle's index. As add_car; name, friction, brake."""
-        return self._native.add_cart({"position": triple(position, "position"), "heading": heading, **fields})
+        return self._native.add_cart({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields})
 
     def add_vehicle(self, **fields: Any) -> int:
         """Makes a vehicle of bodies and joints: chassis, wheels, engine, steering, route, loops, as in a scene file."""
@@ -150,7 +216,10 @@ class Scene:
 
     def vehicle_bodies(self, vehicle: Union[int, str]) -> Ids:
         """The ids of a vehicle's chassis and of its wheels."""
-        return np.asarray(self._native.vehicle_bodies(self._named("vehicles", vehicle)), dtype=np.int64)
+        found = self._named("vehicles", vehicle)
+        if not 0 <= found < self._native.count("vehicles"):
+            raise IndexError(f"vehicle {found} of {self._native.count('vehicles')}")
+        return np.asarray(self._native.vehicle_bodies(found), dtype=np.int64)
 
     def set_fields(self, **fields: Any) -> None:
         """What acts on all dynamic bodies: wind={"velocity": (3,), m/s}, water={"offset": m}, attractors=[...], as in a scene file."""
@@ -213,7 +282,7 @@ class Scene:
 
     @duration.setter
     def duration(self, seconds: float) -> None:
-        self._native.duration = seconds
+        self._native.duration = number(seconds, "duration")
 
     # ---- files
     @property
@@ -222,7 +291,7 @@ class Scene:
         return [*self._native.notes, *self._notes]
 
     def check(self) -> List[str]:
-        """Checks the scene as World does, and returns remarks on hulls and meshes. Raises SceneError."""
+        """Checks the scene as World does, and returns remarks on hulls, meshes, and joints that begin apart. Raises SceneError."""
         return self._native.check()
 
     def to_json(self) -> str:
@@ -239,6 +308,16 @@ class Scene:
         made._notes = list(self._notes)
         return made
 
+    def __copy__(self) -> "Scene":
+        return self.copy()
+
+    def __deepcopy__(self, _: Any) -> "Scene":
+        return self.copy()
+
+    def __reduce__(self) -> Any:
+        """Pickles as the scene file's text, with the meshes of files, and the notes."""
+        return _unpickled, (self._native.whole_json(), self.notes)
+
     @property
     def hash(self) -> str:
         """16 hexadecimal digits that name the scene, as "scene_hash" in reports."""
@@ -247,6 +326,12 @@ class Scene:
     def __repr__(self) -> str:
         joints = self._native.count("joints")
         return f"<scree.Scene of {len(self)} bodies, {joints} joints>"
+
+
+def _unpickled(text: str, notes: List[str]) -> Scene:
+    made = from_json(text)
+    made._notes = notes
+    return made
 
 
 def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: str = "y-up", base: str = "",
@@ -264,14 +349,18 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
     Raises OSError, and SceneError with the file and the JSON pointer, or the file and line.
     """
     name = os.fspath(path)
+    with open(name, "rb"):  # an OSError with its number, for a file of any kind
+        pass
     try:
         return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {}), allow_outside))
-    except _native_error() as error:
-        raise type(error)(str(error) if _native.is_import(name) else f"{name}: {error}", error.pointer) from None
+    except SceneError as error:
+        raise SceneError(str(error) if _native.is_import(name) else f"{name}: {error}", error.pointer) from None
 
 
 def from_json(text: str) -> Scene:
     """Reads the text of a scene file. Raises SceneError."""
+    if not isinstance(text, str):
+        raise TypeError(f"from_json: reads a text, not {type(text).__name__}")
     return Scene._of(_native.from_json(text))
 
 
@@ -280,7 +369,11 @@ def demo(name: str, bodies: int = 0, seed: int = 1) -> Scene:
 
     Raises KeyError for an unknown name; `demos()` has them all. Scripted actions are left out, which `notes` tells.
     """
-    return Scene._of(_native.demo(name, bodies, seed))
+    try:
+        return Scene._of(_native.demo(str(name), count_of(bodies, "bodies"), count_of(seed, "seed", 2**64 - 1)))
+    except KeyError:
+        near = difflib.get_close_matches(str(name), list(demos()), 1)
+        raise KeyError(f"no demo is named {name!r}" + (f'; nearest: "{near[0]}"' if near else "; demos() has them all")) from None
 
 
 def demos() -> Dict[str, str]:
@@ -292,9 +385,3 @@ def schema() -> Dict[str, Any]:
     """The JSON Schema of scene files, which says range, unit and meaning of every key."""
     made: Dict[str, Any] = json.loads(_native.schema())
     return made
-
-
-def _native_error() -> Any:
-    from scree._errors import SceneError
-
-    return SceneError

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import difflib
 import os
 import sys
 import typing
@@ -14,7 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from scree import _native, _progress
-from scree._arrays import Floats, Ids, ids_of, json_text, maybe_vectors, triple, unit, vectors
+from scree._arrays import (Floats, Ids, count_of, each, floats, ids_of, index, json_text, maybe_vectors, number, rotated, triple,
+                           turned, unit, vectors, whole)
 from scree.camera import Camera, Picture, Size
 from scree.joints import JointKind, Spring
 from scree.scene import Scene, load, require_keys
@@ -22,6 +24,7 @@ from scree.shapes import Filter, Shape, Vector
 
 Array = npt.NDArray[Any]
 ALL_CATEGORIES = 0xFFFFFFFF
+_AXES = ("x", "y", "z", "twist", "swing_y", "swing_z")
 CHANNELS = ("color", "depth", "body", "part", "normal", "flow")
 _LOOK = ("color_map", "color_scale", "color_range", "show", "sky", "sun_azimuth", "sun_elevation", "caption", "canvas", "legend", "shadows", "samples")
 
@@ -38,6 +41,16 @@ class EventKind(IntEnum):
     woke = 6
     sensor_begin = 7  # b began to overlap the sensor a
     sensor_end = 8
+
+
+def _fixed(array: Array) -> Array:
+    """An array that is a copy, and cannot be taken for the state itself."""
+    array.flags.writeable = False
+    return array
+
+
+def _mask(mask: Any) -> int:
+    return count_of(mask, "mask", ALL_CATEGORIES)
 
 
 class Tables:
@@ -118,6 +131,8 @@ class World:
     Raises SceneError (a ValueError with a `pointer`), and DeviceError where the backend is not to be had.
     """
 
+    __slots__ = ("_copies", "_native", "_told_of_events", "__weakref__")
+
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", typing.Sequence[Scene]], backend: str = "auto",
                  rate: Optional[float] = None, substeps: Optional[int] = None, *, copies: Optional[int] = None, device: str = "",
                  threads: int = 0, validate: bool = False, events: Union[bool, typing.Mapping[str, Any]] = False,
@@ -125,6 +140,7 @@ class World:
         require_keys(settings, _native.keys("settings"), "World")
         if backend not in ("auto", "cpu", "vulkan"):
             raise ValueError(f'backend: unknown "{backend}"; known: auto, cpu, vulkan')
+        threads = count_of(threads, "threads")
         if rate is not None:
             settings["rate"] = rate
         if substeps is not None:
@@ -134,9 +150,11 @@ class World:
             if not scenes or copies not in (None, len(scenes)):
                 raise ValueError(f"copies: {len(scenes)} scenes are given, one for each copy, not {copies}")
             copies = len(scenes)
+        elif not isinstance(scene, (Scene, str, os.PathLike)):
+            raise TypeError(f"World: simulates a Scene, a scene file or a list of scenes, not {type(scene).__name__}")
         else:
-            scenes = [scene if isinstance(scene, Scene) else load(typing.cast(Union[str, "os.PathLike[str]"], scene))]
-        if copies is not None and copies < 1:
+            scenes = [scene if isinstance(scene, Scene) else load(scene)]
+        if copies is not None and whole(copies, "copies") < 1:
             raise ValueError(f"copies: must be at least 1, is {copies}")
         self._copies = copies
         self._native = _native.World([one._native for one in scenes], json_text(settings, "/settings"), backend, str(device), threads,
@@ -154,6 +172,7 @@ class World:
         The scene's timed events happen on the way. progress: shows a bar; by default on a terminal and in a notebook, if it
         takes more than half a second. Raises MemoryError when memory ends.
         """
+        count = count_of(count, "the number of steps")
         if count == 1 or not _progress.is_wanted(progress):
             self._native.step(count, None)
             return
@@ -165,7 +184,7 @@ class World:
 
     def run(self, seconds: float, progress: Optional[bool] = None) -> None:
         """Advances to the step nearest to that many seconds from now."""
-        self.step(round(seconds * self.settings["rate"]), progress)
+        self.step(round(number(seconds, "seconds") * self.settings["rate"]), progress)
 
     @property
     def steps(self) -> int:
@@ -212,14 +231,14 @@ class World:
         return self._native.count()
 
     def _shaped(self, column: Array) -> Array:
-        return column if self._copies is None else column.reshape(self._copies, -1, *column.shape[1:])
+        return _fixed(column if self._copies is None else column.reshape(self._copies, -1, *column.shape[1:]))
 
     def _column(self, name: str) -> Array:
         return self._shaped(self._native.columns([name])[name])
 
     @property
     def position(self) -> Floats:
-        """(n, 3), m, of the centres of mass: a copy, as all below."""
+        """(n, 3), m, of the centres of mass: a copy, as all below, and read-only; set() changes them."""
         return self._column("position")
 
     @property
@@ -246,6 +265,22 @@ class World:
     def exists(self) -> npt.NDArray[np.bool_]:
         """(n,): False for what has broken or was removed, and for fragments of what is still whole."""
         return self._column("exists")
+
+    @property
+    def mass(self) -> Floats:
+        """(n,), kg, also of what does not move; 0 of planes, meshes and height fields. set_mass() changes it."""
+        return self._shaped(self._native.masses())
+
+    def origin(self, ids: Optional[Any] = None) -> Tuple[Floats, Floats]:
+        """Positions (n, 3), m, and orientations (n, 4) of the frames in which bodies were described.
+
+        That of the points of a hull, the parts of a compound, the link of a robot, where `position` is the centre of mass and
+        `orientation` that of the principal axes. ids: as of set(), with the shape of the ids; without: of all.
+        """
+        named, shape = self._flat(self.ids() if ids is None and self._copies is not None else
+                                  np.arange(len(self)) if ids is None else ids)
+        position, orientation = self._native.origins(named)
+        return position.reshape(*shape, 3), orientation.reshape(*shape, 4)
 
     def read(self, *names: str) -> Dict[str, Array]:
         """Several of the above by name, in one transfer from a device; without names all."""
@@ -290,20 +325,29 @@ class World:
 
     def statistics_of(self, copy: int) -> Dict[str, Any]:
         """statistics of one copy."""
-        return self._native.statistics(copy)
+        return self._native.statistics(index(copy, "copy"))
 
     def gravity_of(self, copy: int) -> Tuple[float, float, float]:
         """(3,), m/s^2."""
-        return self._native.gravity_of(copy)
+        return self._native.gravity_of(index(copy, "copy"))
 
     def set_gravity_of(self, copy: int, gravity: Vector) -> None:
         """(3,), m/s^2, of one copy from the next step on, which wakes it."""
         x, y, z = triple(gravity, "gravity")
-        self._native.set_gravity_of(copy, (float(x), float(y), float(z)))
+        self._native.set_gravity_of(index(copy, "copy"), (float(x), float(y), float(z)))
 
     def wake_copy(self, copy: int) -> None:
         """Wakes all bodies of a copy in the next step."""
-        self._native.wake_copy(copy)
+        self._native.wake_copy(index(copy, "copy"))
+
+    def _flat(self, ids: Any) -> Tuple[Ids, Tuple[int, ...]]:
+        """Ids one after the other, and their shape: (n,), or (copies, k)."""
+        array = np.asarray(ids)
+        if array.ndim != 2 or array.size == 0:
+            named = ids_of(array, len(self))
+            return named, named.shape
+        named, _ = self._in_a_row(array, ())
+        return named, named.shape if array.dtype == np.bool_ else array.shape
 
     def _in_a_row(self, ids: Any, values: Tuple[Optional[Any], ...]) -> Tuple[Ids, typing.List[Optional[Any]]]:
         """Ids of (copies, k), and their values, one after the other; others as they are."""
@@ -319,7 +363,7 @@ class World:
         def flat(value: Optional[Any]) -> Optional[Any]:
             if value is None:
                 return None
-            wide = np.asarray(value, dtype=np.float32)
+            wide = floats(value, "values")
             try:
                 return np.broadcast_to(wide, (*shape, wide.shape[-1])).reshape(-1, wide.shape[-1])
             except (ValueError, IndexError):
@@ -346,6 +390,20 @@ class World:
         self._native.set(named, maybe_vectors(position, n, 3, "position"), maybe_vectors(orientation, n, 4, "orientation"),
                          maybe_vectors(velocity, n, 3, "velocity"),
                          maybe_vectors(angular_velocity, n, 3, "angular_velocity"))
+
+    def set_origin(self, ids: Any, position: Optional[Any] = None, orientation: Optional[Any] = None) -> None:
+        """Places bodies as Scene.add does, and origin() tells: (n, 3) and (n, 4) of the frames in which they were described."""
+        named, (position, orientation) = self._in_a_row(ids, (position, orientation))
+        at, turn = (one.astype(np.float64) for one in self._native.origins(named))
+        now = self._native.columns(["position", "orientation"])
+        back = turn * (-1, -1, -1, 1)
+        offset = rotated(back, now["position"][named].astype(np.float64) - at)
+        within = turned(back, now["orientation"][named].astype(np.float64))
+        if position is not None:
+            at = vectors(position, len(named), 3, "position").astype(np.float64)
+        if orientation is not None:
+            turn = unit(vectors(orientation, len(named), 4, "orientation"), "orientation").astype(np.float64)
+        self._native.set(named, (at + rotated(turn, offset)).astype(np.float32), turned(turn, within).astype(np.float32), None, None)
 
     def apply(self, ids: Any, *, force: Optional[Any] = None, torque: Optional[Any] = None, impulse: Optional[Any] = None,
               angular_impulse: Optional[Any] = None, offset: Optional[Any] = None) -> None:
@@ -390,24 +448,25 @@ class World:
         if ids is None:
             self._native.wake_all()
         else:
-            self._native.wake(ids_of(ids, len(self)))
+            self._native.wake(self._flat(ids)[0])
 
     def set_material(self, ids: Any, **fields: Any) -> None:
         """Changes friction, restitution, rolling_resistance and the like from the next step on; what is not given stays."""
         require_keys(fields, _native.keys("material"), "a material")
-        self._native.set_material(ids_of(ids, len(self)), json_text(fields, "/material"))
+        self._native.set_material(self._flat(ids)[0], json_text(fields, "/material"))
 
     def set_mass(self, ids: Any, mass: Any) -> None:
         """Changes masses, kg (one for all, or one each), and moments of inertia in proportion, from the next step on."""
-        named = ids_of(ids, len(self))
-        for body, kilograms in zip(named, np.broadcast_to(np.asarray(mass, dtype=np.float32), len(named))):
+        named, shape = self._flat(ids)
+        masses = each(mass, shape, "mass")
+        for body, kilograms in zip(named, typing.cast(Floats, masses)):
             self._native.set_mass(int(body), float(kilograms))
 
     def move(self, ids: Any, position: Any, orientation: Optional[Any] = None, steps: int = 1) -> None:
         """Moves kinematic bodies to poses, (n, 3) and (n, 4), within that many steps, pushing what they meet; then they stand."""
         named = ids_of(ids, len(self))
         turn = self.orientation[named] if orientation is None else vectors(orientation, len(named), 4, "orientation")
-        self._native.move(named, vectors(position, len(named), 3, "position"), np.ascontiguousarray(turn), steps)
+        self._native.move(named, vectors(position, len(named), 3, "position"), np.ascontiguousarray(turn), count_of(steps, "steps"))
 
     def set_fields(self, **fields: Any) -> None:
         """Wind, water and attractors from the next step on, in place of those before; see Scene.set_fields."""
@@ -416,17 +475,17 @@ class World:
 
     def set_filter(self, ids: Any, filter: Filter) -> None:
         """Changes which bodies collide, from the next step on; wakes all."""
-        for body in ids_of(ids, len(self)):
+        for body in self._flat(ids)[0]:
             self._native.set_filter(int(body), json_text(filter, "/filter"))
 
     def set_motion(self, ids: Any, motion: str) -> None:
         """Makes bodies "dynamic", "fixed" or "kinematic" from the next step on."""
-        for body in ids_of(ids, len(self)):
-            self._native.set_motion(int(body), motion)
+        for body in self._flat(ids)[0]:
+            self._native.set_motion(int(body), str(motion))
 
     def exclude(self, a: int, b: int, excluded: bool = True) -> None:
         """Whether two bodies never collide with each other."""
-        self._native.set_exclusion(a, b, excluded)
+        self._native.set_exclusion(index(a, "body"), index(b, "body"), bool(excluded))
 
     # ---- settings that may change
     @property
@@ -445,7 +504,7 @@ class World:
         for name, value in (("substeps", substeps), ("friction_factor", friction_factor),
                             ("least_restitution", least_restitution), ("sleeping", sleeping)):
             if value is not None:
-                self._native.tune(name, float(value))
+                self._native.tune(name, whole(value, name) if name == "substeps" else number(value, name))
 
     # ---- contacts and events
     def contacts(self) -> "np.recarray[Any, Any]":
@@ -457,14 +516,16 @@ class World:
         return self._native.contacts().view(np.recarray)
 
     def touch_force(self, ids: Any) -> Floats:
-        """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts."""
-        return self._native.touch_forces(ids_of(ids, len(self)))
+        """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts. ids of (copies, k): (copies, k, 3)."""
+        named, shape = self._flat(ids)
+        return self._native.touch_forces(named).reshape(*shape, 3)
 
     def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False,
                    sensors: bool = True) -> None:
         """Which events are recorded from the next step on. hit_speed: m/s, least approach speed of a hit; None: no hits."""
         self._told_of_events = True
-        self._native.set_events(contacts, 1e30 if hit_speed is None else hit_speed, breaks, sleep, sensors)
+        self._native.set_events(bool(contacts), 1e30 if hit_speed is None else number(hit_speed, "hit_speed"), bool(breaks), bool(sleep),
+                                bool(sensors))
 
     def events(self) -> "np.recarray[Any, Any]":
         """What happened since the last call, ordered by step, kind, bodies and parts; none is lost, every begin has one end.
@@ -496,24 +557,24 @@ class World:
         (height, width, 3) give (height, width) hits.
         """
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.cast_rays(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape).view(np.recarray)
+        return self._native.cast_rays(*rays, _mask(mask), solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape).view(np.recarray)
 
     def rays_hit(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True,
                  copy: Any = 0) -> npt.NDArray[np.bool_]:
         """(n,): whether each ray hits anything; otherwise as cast_rays, and faster."""
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.rays_hit(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape)
+        return self._native.rays_hit(*rays, _mask(mask), solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies")).reshape(shape)
 
     def cast_rays_through(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES,
                           solid: bool = True, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """The first hit of each body and part, near ones first: (starts, hits), of ray i hits[starts[i]:starts[i + 1]]."""
         rays, _ = self._rays(origins, directions, reach)
-        starts, hits = self._native.cast_rays_through(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies"))
+        starts, hits = self._native.cast_rays_through(*rays, _mask(mask), solid, ids_of(np.asarray(copy).reshape(-1), self.copies, "copies"))
         return starts, hits.view(np.recarray)
 
     @staticmethod
     def _rays(origins: Any, directions: Any, reach: Any) -> Tuple[Tuple[Floats, Floats, Floats], Tuple[int, ...]]:
-        start, along = np.asarray(origins, dtype=np.float32), np.asarray(directions, dtype=np.float32)
+        start, along = floats(origins, "origins"), floats(directions, "directions")
         for name, array in (("origins", start), ("directions", along)):
             if array.ndim == 0 or array.shape[-1] != 3:
                 raise ValueError(f"{name}: have the shape {array.shape}, should have (n, 3)")
@@ -534,14 +595,14 @@ class World:
         """
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
-        return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask,
+        return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, _mask(mask),
                                         ids_of(copy, self.copies, "copies")).view(np.recarray)
 
     def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
         place = np.atleast_2d(np.asarray(points, dtype=np.float32))
         place = vectors(place, len(place), 3, "points")
-        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask, ids_of(copy, self.copies, "copies")).view(np.recarray)
+        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), _mask(mask), ids_of(copy, self.copies, "copies")).view(np.recarray)
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                  mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
@@ -549,7 +610,7 @@ class World:
         place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
-        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask, ids_of(copy, self.copies, "copies"))
+        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies"))
         return starts, parts.view(np.recarray)
 
     # ---- files
@@ -568,19 +629,21 @@ class World:
             return Export(None)
         if not name.endswith((".glb", ".usda")):
             raise ValueError(f"export: {name}: is neither a .glb, a .usda nor a .json")
-        return Export(self._native.export_to(name, every, clips))
+        return Export(self._native.export_to(name, count_of(every, "every"), count_of(clips, "clips")))
 
     # ---- saving
     def save(self) -> bytes:
         """The whole state: contacts with their impulses, sleep, joints, breaks, edits, settings."""
         return self._native.save()
 
-    def restore(self, mark: bytes) -> None:
-        """Returns to a saved state of a world of the same scene, on any backend: later steps give the same bits.
+    def restore(self, mark: Union[bytes, bytearray, memoryview]) -> None:
+        """Returns to a saved state, the bytes of save(), of a world of the same scene, on any backend: later steps give the same bits.
 
         Raises CheckpointError, changing nothing, and BufferError while views (World.tables) live.
         """
-        self._native.restore(mark)
+        if not isinstance(mark, (bytes, bytearray, memoryview)):
+            raise TypeError(f"restore: takes the bytes of save(), not {type(mark).__name__}")
+        self._native.restore(bytes(mark))
 
     def keep_state(self) -> None:
         """Keeps the present state where the runner has it, on a device in its memory; of ten the oldest goes."""
@@ -591,7 +654,7 @@ class World:
 
         Raises IndexError, naming the steps that are kept, if there is none, and BufferError while views (World.tables) live.
         """
-        self._native.roll_back(steps)
+        self._native.roll_back(count_of(steps, "steps"))
 
     @property
     def kept_states(self) -> typing.List[int]:
@@ -604,7 +667,7 @@ class World:
 
     def write_checkpoint(self, path: Union[str, "os.PathLike[str]"], note: str = "") -> None:
         """Writes save() and a note to a file, atomically, for read_checkpoint. Raises OSError."""
-        self._native.write_checkpoint(os.fspath(path), note)
+        self._native.write_checkpoint(os.fspath(path), str(note))
 
     def read_checkpoint(self, path: Union[str, "os.PathLike[str]"]) -> str:
         """Restores what write_checkpoint or scree run --checkpoint wrote, and returns the note. Raises as restore, and OSError."""
@@ -615,69 +678,172 @@ class World:
 
         copy: which, in a world of several.
         """
-        return Scene._of(self._native.snapshot(copy))
+        return Scene._of(self._native.snapshot(None if copy is None else index(copy, "copy")))
 
     # ---- joints and vehicles
+    # Joints are named by index, by name, by an array of either, (k,), by a mask, or by (copies, k) of joint_ids(). Names stand for
+    # the joints of all copies. `axis`: of "x", "y", "z", "twist", "swing_y", "swing_z"; without one that along or about which each
+    # moves: x of a slider or distance, else twist.
     def joints(self) -> "np.recarray[Any, Any]":
-        """All joints: force (3,), N, and torque (3,), N m, on b, max_force, max_torque, broken, gap (m), coordinates (6,).
+        """All joints, (m,), or (copies, m): force (3,), N, and torque (3,), N m, on b, max_force, max_torque, broken, gap (m), coordinates (6,),
+        rates (6,).
 
         Coordinates: x, y, z (m), twist, swing_y, swing_z (rad); the angle of a hinge, a twist or a swing alone counts turns.
+        Rates: theirs, m/s and rad/s.
         """
-        return self._native.joints().view(np.recarray)
+        return self._shaped(self._native.joints()).view(np.recarray)
+
+    def joint(self, name: str) -> int:
+        """The index of the first joint of that name, in its copy; raises KeyError."""
+        names = self.joint_names
+        if name in names:
+            return names.index(name)
+        near = difflib.get_close_matches(name, [one for one in names if one], 1)
+        raise KeyError(f'no joint is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
+
+    @property
+    def joint_names(self) -> typing.List[str]:
+        """The names of the joints of the scene, by index; "" without one."""
+        return self._native.joint_names()
+
+    def joint_ids(self, joints: Any = None, copies: Any = None) -> Ids:
+        """(copies, k): the indices, in this world, of joints of the scene (indices or names) in copies; without arguments of all."""
+        every = self._native.joint_count() // self.copies
+        if isinstance(joints, str) or (isinstance(joints, (list, tuple)) and any(isinstance(one, str) for one in joints)):
+            joints = [self.joint(one) if isinstance(one, str) else one for one in ([joints] if isinstance(joints, str) else joints)]
+        joint = np.arange(every) if joints is None else ids_of(joints, every, "joints")
+        copy = np.arange(self.copies) if copies is None else ids_of(copies, self.copies, "copies")
+        for what, given, most in (("joint", joint, every), ("copy", copy, self.copies)):
+            if given.size and (given.min() < 0 or given.max() >= most):
+                raise IndexError(f"{what} {given.max() if given.max() >= most else given.min()} of {most}")
+        made: Ids = copy[:, None].astype(np.int64) * every + joint[None, :]
+        return made
+
+    def _joints_of(self, joints: Any) -> Tuple[Ids, Tuple[int, ...]]:
+        """Indices one after the other, and their shape."""
+        if isinstance(joints, str) or (isinstance(joints, (list, tuple)) and any(isinstance(one, str) for one in joints)):
+            named = self.joint_ids(joints)
+            if self._copies is None:
+                named = named[0, 0] if isinstance(joints, str) else named[0]
+            return named.reshape(-1), named.shape
+        array = np.asarray(joints)
+        count = self._native.joint_count()
+        if array.dtype == np.bool_:
+            if array.shape not in ((count,), (self.copies, count // self.copies)):
+                raise IndexError(f"joints: a mask of the shape {array.shape} for {count} joints")
+            array = np.flatnonzero(array)
+        flat = ids_of(array.reshape(-1), count, "joints")
+        return flat, array.shape
+
+    @staticmethod
+    def _axis_name(axis: Optional[str]) -> str:
+        if axis is not None and axis not in _AXES:
+            raise ValueError(f"axis: unknown {axis!r}; known: {', '.join(_AXES)}")
+        return axis or ""
 
     def add_joint(self, kind: JointKind, a: Optional[int] = None, b: Optional[int] = None, *, anchor: Optional[Vector] = None,
                   axis: Vector = (1.0, 0.0, 0.0), **fields: Any) -> int:
         """Joins two bodies (None: the world) where they are now, and returns the joint's index. As Scene.add_joint."""
         require_keys(fields, _native.keys("joint"), "a joint")
         joint: Dict[str, Any] = {"kind": kind, **fields}
-        joint.update({key: int(body) for key, body in (("a", a), ("b", b)) if body is not None})
+        joint.update({key: index(body, key) for key, body in (("a", a), ("b", b)) if body is not None})
         return self._native.add_joint(json_text(joint, "/joint"), None if anchor is None else triple(anchor, "anchor"), triple(axis, "axis"))
 
     def remove_joint(self, joint: int) -> None:
         """Removes a joint; higher indices decrease by one."""
-        self._native.remove_joint(joint)
+        self._native.remove_joint(index(joint, "joint"))
 
-    def set_motor(self, joint: int, speed: float, max_force: float, axis: str = "twist") -> None:
-        """Drives an axis of a joint: m/s and N along x, y, z, rad/s and N m about twist, swing_y, swing_z. A hinge's is twist."""
-        self._native.set_motor(joint, axis, speed, max_force)
+    def set_motor(self, joints: Any, speed: Any, max_force: Any, axis: Optional[str] = None) -> None:
+        """Drives joints at a speed: m/s and N along x, y, z, rad/s and N m about the others; one number for all, or one each.
 
-    def set_spring(self, joint: int, spring: Spring, axis: str = "twist") -> None:
-        """Puts a spring on an axis of a joint."""
-        self._native.set_spring(joint, axis, json_text(spring, "/spring"))
+        A spring of the axis stays, and a motor without force beside one is none; the motor takes the place of friction.
+        """
+        named, shape = self._joints_of(joints)
+        self._native.set_motors(named, self._axis_name(axis), typing.cast(Floats, each(speed, shape, "speed")),
+                                typing.cast(Floats, each(max_force, shape, "max_force")))
+
+    def set_spring(self, joints: Any, spring: Spring, axis: Optional[str] = None) -> None:
+        """Puts a spring on joints, in place of that which they have; a motor or friction stays."""
+        named, _ = self._joints_of(joints)
+        self._native.set_springs(named, self._axis_name(axis), json_text(spring, "/spring"))
+
+    def set_drive(self, joints: Any, *, stiffness: Optional[Any] = None, damping: Optional[Any] = None, target: Optional[Any] = None,
+                  target_speed: Optional[Any] = None, max_force: Optional[Any] = None, axis: Optional[str] = None) -> None:
+        """Servos, of many joints at once: stiffness (target - coordinate) + damping (target_speed - rate), at most max_force.
+
+        Each a number for all, or an array of the shape of the joints; what is not given stays. It is the axis's spring, and takes the place
+        of a motor. Units: m and N, or rad and N m. Raises SceneError for max_force or target_speed where there is friction.
+        """
+        named, shape = self._joints_of(joints)
+        self._native.set_drives(named, self._axis_name(axis), each(stiffness, shape, "stiffness"), each(damping, shape, "damping"),
+                                each(target, shape, "target"), each(target_speed, shape, "target_speed"),
+                                each(max_force, shape, "max_force"))
+
+    def drives(self, axis: Optional[str] = None) -> "np.recarray[Any, Any]":
+        """What drives and limits an axis of each joint now, (m,), or (copies, m).
+
+        Fields, also attributes: of the spring stiffness, damping, target, target_speed, max_force; of the motor motor_speed, motor_force;
+        friction, armature, lower, upper (limits), locked. 0, or infinite, where there is none.
+        """
+        name = self._axis_name(axis)
+        return self._shaped(self._native.drives(_AXES.index(name) if name else -1)).view(np.recarray)
+
+    def set_joint_coordinates(self, joints: Any, coordinate: Optional[Any] = None, rate: Optional[Any] = None, *,
+                              axis: Optional[str] = None) -> None:
+        """Places bodies so that joints have these coordinates (m or rad) and rates (m/s or rad/s); what is not given stays.
+
+        A number for all, or an array of the shape of the joints. What hangs on a joint moves along, seen from the root of its tree,
+        which stays: the world, what is not dynamic, else the one body that is b of no joint. Raises ValueError for joints in a loop, and
+        for what is out of a joint's limits, and then changes nothing.
+        """
+        named, shape = self._joints_of(joints)
+        self._native.set_joint_coordinates(named, self._axis_name(axis), each(coordinate, shape, "coordinate"),
+                                           each(rate, shape, "rate"))
+
+    def apply_joint_forces(self, joints: Any, force: Any, axis: Optional[str] = None) -> None:
+        """Forces (N) or torques (N m) of joints on b, the opposite on a, in the next step: a number for all, or one each. They add up.
+
+        joints: indices or names, (k,) or (copies, k); force broadcasts to their shape.
+        """
+        named, shape = self._joints_of(joints)
+        self._native.apply_joint_forces(named, self._axis_name(axis), typing.cast(Floats, each(force, shape, "force")))
 
     def vehicles(self) -> "np.recarray[Any, Any]":
         """All vehicles: throttle, brake, steer, hand_brake, speed (m/s), curvature (1/m), by_route, passed, next, arrived."""
-        return self._native.vehicles().view(np.recarray)
+        return _fixed(self._native.vehicles()).view(np.recarray)
 
     def drive(self, vehicle: int, throttle: float = 0.0, brake: float = 0.0, steer: float = 0.0, hand_brake: float = 0.0) -> None:
         """Sets a vehicle's controls until the next call: throttle and steer -1 to 1 (1: left), brakes 0 to 1."""
-        self._native.drive(vehicle, throttle, brake, steer, hand_brake)
+        self._native.drive(index(vehicle, "vehicle"), number(throttle, "throttle"), number(brake, "brake"), number(steer, "steer"),
+                           number(hand_brake, "hand_brake"))
 
     def drive_by_route(self, vehicle: int) -> None:
         """The vehicle follows its route again."""
-        self._native.drive_by_route(vehicle)
+        self._native.drive_by_route(index(vehicle, "vehicle"))
 
     def reset_upright(self, vehicle: int) -> None:
         """Puts a vehicle upright, at rest, half a metre above where it is."""
-        self._native.reset_upright(vehicle)
+        self._native.reset_upright(index(vehicle, "vehicle"))
 
     # ---- hands
     def grip(self, body: int, anchor: Vector, target: Vector, *, hertz: float = 5.0, damping_ratio: float = 1.0,
              max_acceleration: float = 300.0, spin_damping: float = 5.0) -> int:
         """Pulls a point of a body (anchor, (3,), in its frame, m) to a target, (3,), m, by a damped spring; returns the grip."""
-        return self._native.grip(body, triple(anchor, "anchor"), triple(target, "target"), hertz, damping_ratio, max_acceleration, spin_damping)
+        return self._native.grip(index(body, "body"), triple(anchor, "anchor"), triple(target, "target"), number(hertz, "hertz"),
+                                 number(damping_ratio, "damping_ratio"), number(max_acceleration, "max_acceleration"),
+                                 number(spin_damping, "spin_damping"))
 
     def move_grip(self, grip: int, target: Vector) -> None:
         """Moves a grip's target."""
-        self._native.move_grip(grip, triple(target, "target"))
+        self._native.move_grip(index(grip, "grip"), triple(target, "target"))
 
     def release(self, grip: int) -> None:
         """Lets go."""
-        self._native.release(grip)
+        self._native.release(index(grip, "grip"))
 
     def explode(self, centre: Vector, radius: float, speed: float) -> None:
         """Adds a velocity away from centre, (3,), m: `speed`, m/s, there, falling to 0 at `radius`, m."""
-        self._native.explode(triple(centre, "centre"), radius, speed)
+        self._native.explode(triple(centre, "centre"), number(radius, "radius"), number(speed, "speed"))
 
     # ---- pictures
     @property
@@ -709,7 +875,7 @@ class World:
                 raise ValueError(f'channels: unknown "{name}"; known: {", ".join(CHANNELS)}')
         if color is not None:
             look["color"] = color
-        width, height = (int(side) for side in size)
+        width, height = (count_of(side, "size") for side in size)
         seen = self.camera if camera is None else camera
         seconds = 1 / self.settings["rate"] if seconds_before is None else seconds_before
         arrays = self._native.render(seen._text(), width, height, wanted, json_text(look, "/picture"),
