@@ -72,6 +72,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     canvas.width = options.width * factor_of(options);
     canvas.height = options.height * factor_of(options);
     canvas.bits = options.bits;
+    canvas.background = options.background != "none";
     canvas.legend = options.legend;
     canvas.smooth = options.samples == 1;  // averaged pictures are smooth
     show_overlays(style, world, canvas);
@@ -81,7 +82,8 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
 
 bool can_be_parts(const PictureOptions& options, const LoadedScene& subject, World& world) {
     if (style_of(options, subject.style).color == ShownQuantity::own) return false;  // ranks do not have them
-    return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty();
+    return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty() &&
+           options.background != "none";
 }
 
 // All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.
@@ -213,6 +215,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.width = options.width;
     writer.height = options.height;
     writer.bits = options.bits;
+    writer.alpha = options.background == "none";
     const host::CanvasOptions canvas = canvas_for(options, subject, world);
     if (can_be_parts(options, subject, world)) in.part = PartDrawing::make(world, canvas);
     in.make_drawing = [&in, canvas, machine, shown, word = in.part ? "gl" : options.canvas, from_host = options.shutter > 0] {

@@ -93,15 +93,19 @@ enum class Sky {
 vec3 usual_sun(Sky sky);  // direction to the sun or moon
 
 struct CanvasOptions {
-    int width = 1280;     // pixels
-    int height = 720;     // pixels
-    int samples = 0;      // per pixel: 4 (MSAA), or 1 with edges smoothed afterwards; 0: 1 on a software renderer, else 4
+    int width = 1280;  // pixels
+    int height = 720;  // pixels
+    // Per pixel: 4 (MSAA), or 1 with edges smoothed afterwards; 0: 1 on a software renderer, else 4. Smoothing knows no alpha, so
+    // without background it is 4.
+    int samples = 0;
     bool smooth = true;   // smooths edges with one sample per pixel
     bool stays = false;   // pictures stay on the device (VulkanCanvas::draw_there); else they are smoothed on the host
     int bits = 8;         // per channel: 8, or 16, rendered into half floats of linear light
     bool shadows = true;  // shadow map of the sun, and ambient occlusion
-    bool legend = true;   // the colour scale
-    bool marks = false;   // contact points, with lines for the impulses; bodies are drawn paler
+    // false: neither sky nor haze, and of planes the shadows alone, black and as opaque as dark. Pictures have alpha.
+    bool background = true;
+    bool legend = true;  // the colour scale
+    bool marks = false;  // contact points, with lines for the impulses; bodies are drawn paler
     // Velocity change of the lighter body, m/s, at which the line of an impulse is half as long as the thinner body's
     // half width; length grows with the square root.
     float mark_push = 0.02f;
@@ -148,8 +152,8 @@ public:
     // scale.
     virtual void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                        vec3 scene_high) = 0;
-    // Waits for the picture and returns it. Call once after each begin(), before the next begin() and before the host
-    // writes or frees the tables.
+    // Waits for the picture and returns it, its light multiplied by alpha. Call once after each begin(), before the next begin()
+    // and before the host writes or frees the tables.
     virtual Image finish() = 0;
 
     Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {

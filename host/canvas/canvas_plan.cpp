@@ -68,6 +68,7 @@ CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor) {
                           " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
     }
     if (options.samples == 0) options.samples = is_processor ? 1 : 4;
+    if (!options.background && options.smooth && options.samples == 1) options.samples = 4;
     if (options.samples != 1 && options.samples != 4)
         throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
     return options;
@@ -117,9 +118,13 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     }
     // Of a plane, what shadows may reach is shaded with them, and all else, most of the ground, without: software devices
     // cannot skip the reads of the maps pixel by pixel.
-    if (options.shadows) draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 6, 0, 1});
-    draws.push_back({body("plane.vert", "plane_far.frag", Cull::none), Items::planes, Mesh::none, 12});
-    draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
+    const char* near = options.background ? "plane.frag" : "plane_shadow.frag";
+    if (options.shadows) draws.push_back({body("plane.vert", near, Cull::none), Items::planes, Mesh::none, 6, 0, 1});
+    if (options.background) {
+        draws.push_back({body("plane.vert", "plane_far.frag", Cull::none), Items::planes, Mesh::none, 12});
+        draws.push_back(
+            {{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
+    }
     if (options.marks) {
         const DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::greater_or_equal, false, true, true};
         draws.push_back({mark, Items::marks, Mesh::none, 4});

@@ -81,7 +81,7 @@ struct DrawState {
     Cull cull = Cull::none;
     Compare depth = Compare::always;
     bool writes_depth = false;
-    bool blends = false;  // source alpha blending; the destination's alpha stays
+    bool blends = false;  // source alpha blending; the destination's alpha stays, without a background it grows
     bool strip = false;   // a triangle strip instead of separate triangles
     bool operator==(const DrawState&) const = default;
 };

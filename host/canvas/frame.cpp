@@ -253,11 +253,11 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.sky_map = sky_map.matrix;
     set_light_bounds(frame, camera, sun, low, high);
     // Haze and grid fade with the view, but not within the scene.
-    frame.eye.w = std::max(frame.eye.w, 3.5f * frame.box_high.w);
+    frame.eye.w = options.background ? std::max(frame.eye.w, 3.5f * frame.box_high.w) : 1e30f;
     frame.pixel.y = sky_map.depth;
     frame.pixel.z = 10 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
-    frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
+    frame.toward_sky = vec4(0, 1, 0, options.background ? static_cast<float>(options.samples) : 4.0f);
     const SkyLight& light = light_of(options.sky);
     frame.sun_light = vec4(light.sun, 0);
     frame.zenith = vec4(light.zenith, light.glow);

@@ -193,10 +193,10 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     if (!options.video.empty()) in.add_video(in.video, options.video, Clip::film);
     if (!options.preview.empty()) in.add_video(in.preview, options.preview, preview);
     if (!options.folder.empty()) {
-        const auto write = [folder = options.folder](const Job& job) {
+        const auto write = [folder = options.folder, alpha = options.alpha](const Job& job) {
             char name[32];
             std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
-            write_png(folder / name, *job.image);
+            write_png(folder / name, alpha ? straight(*job.image) : *job.image);
         };
         in.add_output(encoders(options.threads), write, {});
     }

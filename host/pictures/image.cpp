@@ -74,12 +74,14 @@ const std::vector<std::uint16_t>& levels_of_halves() {
 
 }  // namespace
 
-Image image_of_halves(int width, int height, std::span<const std::uint16_t> halves) {
+Image image_of_halves(int width, int height, std::span<const std::uint16_t> halves, bool alpha) {
     const std::vector<std::uint16_t>& levels = levels_of_halves();
     Image image{width, height, std::vector<std::uint8_t>(halves.size() * 2), 16};
     require_whole(image);
     for (std::size_t i = 0; i < halves.size(); ++i) {
-        const std::uint16_t level = i % 4 == 3 ? 0xFFFF : levels[halves[i]];
+        std::uint16_t level = i % 4 == 3 ? 0xFFFF : levels[halves[i]];
+        if (alpha && i % 4 == 3)
+            level = static_cast<std::uint16_t>(std::lround(std::clamp(float_of_half(halves[i]), 0.0f, 1.0f) * 65535.0f));
         std::memcpy(&image.rgba[2 * i], &level, 2);
     }
     return image;

@@ -21,12 +21,15 @@ struct Image {
     int bits = 8;                    // per channel: 8, or 16 (two bytes, native byte order)
 };
 
-// Converts RGBA half floats of linear light to an opaque sRGB image of 16 bits per channel.
-Image image_of_halves(int width, int height, std::span<const std::uint16_t> halves);
+// Converts RGBA half floats of linear light to an sRGB image of 16 bits per channel; without `alpha` it is opaque.
+Image image_of_halves(int width, int height, std::span<const std::uint16_t> halves, bool alpha = false);
+// From light multiplied by alpha, as drawings are averaged and EXR files keep it, to the straight one of PNG files.
+Image straight(Image image);
 // The pixels without alpha: 3 or 6 bytes per pixel. Throws ImageError if rgba.size() does not match the image's size.
 std::vector<std::uint8_t> rgb_bytes(const Image& image);
 
-// Means of blocks of `factor` x `factor` pixels in linear light; the size must be a multiple of it. Throws ImageError.
+// Means of blocks of `factor` x `factor` pixels in linear light, multiplied by alpha if they have any; the size must be a
+// multiple of it. Throws ImageError.
 Image reduced(const Image& image, int factor);
 
 // The mean of images of one size, in linear light.
@@ -38,7 +41,7 @@ public:
 private:
     int width_ = 0, height_ = 0, bits_ = 8;
     std::size_t count_ = 0;
-    std::vector<float> light_;  // three sums per pixel
+    std::vector<float> light_;  // four sums per pixel
 };
 
 // Encodes a PNG file (bits per channel as in the image; opaque images are stored as RGB).

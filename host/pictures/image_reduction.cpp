@@ -12,51 +12,33 @@
 namespace scree::host {
 namespace {
 
-void reduce_bytes(const Image& image, std::size_t factor, Image& smaller) {
-    const auto& light = light_of_levels();
-    const auto width = static_cast<std::size_t>(smaller.width), row = static_cast<std::size_t>(image.width) * 4;
-    const float part = 1.0f / static_cast<float>(factor * factor);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(smaller.height); ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            std::array<float, 3> sum{};
-            for (std::size_t v = 0; v < factor; ++v) {
-                const std::uint8_t* from = &image.rgba[(y * factor + v) * row + x * factor * 4];
-                for (std::size_t u = 0; u < factor; ++u, from += 4)
-                    for (std::size_t k = 0; k < 3; ++k) sum[k] += light[from[k]];
-            }
-            std::uint8_t* to = &smaller.rgba[(y * width + x) * 4];
-            for (std::size_t k = 0; k < 3; ++k) to[k] = level_of_light(sum[k] * part);
-            to[3] = 255;
-        }
-    }
-}
-
 std::uint16_t word_of_light(float light) {
     const float mean = std::clamp(light, 0.0f, 1.0f);
     const float encoded = mean <= 0.0031308f ? 12.92f * mean : 1.055f * std::pow(mean, 1.0f / 2.4f) - 0.055f;
     return static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
 }
 
-// 16 bits per channel: exact transfer functions, slow.
-void reduce_words(const Image& image, std::size_t factor, Image& smaller) {
-    const auto width = static_cast<std::size_t>(smaller.width), wide = static_cast<std::size_t>(image.width);
-    const float part = 1.0f / static_cast<float>(factor * factor);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(smaller.height); ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            std::array<std::uint16_t, 4> to{0, 0, 0, 0xFFFF};
-            for (std::size_t k = 0; k < 3; ++k) {
-                float sum = 0;
-                for (std::size_t i = 0; i < factor * factor; ++i) {
-                    std::uint16_t level = 0;
-                    const std::size_t at = (y * factor + i / factor) * wide + x * factor + i % factor;
-                    std::memcpy(&level, &image.rgba[at * 8 + k * 2], 2);
-                    sum += linear_from_srgb(static_cast<float>(level) / 65535.0f);
-                }
-                to[k] = word_of_light(sum * part);
-            }
-            std::memcpy(&smaller.rgba[(y * width + x) * 8], to.data(), 8);
-        }
+// The light, 0 to 1, of a channel of an image, and for each fourth channel alpha.
+float light_at(const Image& image, std::size_t channel) {
+    if (image.bits != 16) {
+        const std::uint8_t level = image.rgba[channel];
+        return channel % 4 == 3 ? static_cast<float>(level) / 255.0f : light_of_levels()[level];
     }
+    std::uint16_t level = 0;
+    std::memcpy(&level, &image.rgba[channel * 2], 2);
+    const float part = static_cast<float>(level) / 65535.0f;
+    return channel % 4 == 3 ? part : linear_from_srgb(part);
+}
+
+void set_light(Image& image, std::size_t channel, float light) {
+    const bool alpha = channel % 4 == 3;
+    const float within = std::clamp(light, 0.0f, 1.0f);
+    if (image.bits != 16) {
+        image.rgba[channel] = alpha ? static_cast<std::uint8_t>(std::lround(within * 255.0f)) : level_of_light(within);
+        return;
+    }
+    const std::uint16_t level = alpha ? static_cast<std::uint16_t>(std::lround(within * 65535.0f)) : word_of_light(within);
+    std::memcpy(&image.rgba[channel * 2], &level, 2);
 }
 
 }  // namespace
@@ -67,50 +49,49 @@ Image reduced(const Image& image, int factor) {
                          " pixels cannot be reduced by " + std::to_string(factor));
     if (factor == 1) return image;
     Image smaller{image.width / factor, image.height / factor, {}, image.bits};
-    smaller.rgba.resize(static_cast<std::size_t>(smaller.width) * static_cast<std::size_t>(smaller.height) *
-                        (image.bits == 16 ? 8 : 4));
-    if (image.bits == 16)
-        reduce_words(image, static_cast<std::size_t>(factor), smaller);
-    else
-        reduce_bytes(image, static_cast<std::size_t>(factor), smaller);
+    const auto width = static_cast<std::size_t>(smaller.width), height = static_cast<std::size_t>(smaller.height);
+    const auto wide = static_cast<std::size_t>(image.width), block = static_cast<std::size_t>(factor);
+    smaller.rgba.resize(width * height * (image.bits == 16 ? 8 : 4));
+    const float part = 1.0f / static_cast<float>(block * block);
+    for (std::size_t y = 0; y < height; ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            std::array<float, 4> sum{};
+            for (std::size_t i = 0; i < block * block; ++i) {
+                const std::size_t from = (y * block + i / block) * wide + x * block + i % block;
+                for (std::size_t k = 0; k < 4; ++k) sum[k] += light_at(image, from * 4 + k);
+            }
+            for (std::size_t k = 0; k < 4; ++k) set_light(smaller, (y * width + x) * 4 + k, sum[k] * part);
+        }
+    }
     return smaller;
+}
+
+Image straight(Image image) {
+    const std::size_t channels = image.rgba.size() / (image.bits == 16 ? 2 : 1);
+    for (std::size_t i = 0; i < channels; i += 4) {
+        const float alpha = light_at(image, i + 3);
+        if (alpha <= 0 || alpha >= 1) continue;
+        for (std::size_t k = i; k < i + 3; ++k) set_light(image, k, light_at(image, k) / alpha);
+    }
+    return image;
 }
 
 void MeanImage::add(const Image& image) {
     if (count_ == 0) {
         std::tie(width_, height_, bits_) = std::tuple(image.width, image.height, image.bits);
-        light_.assign(image.rgba.size() / (image.bits == 16 ? 8 : 4) * 3, 0.0f);
+        light_.assign(image.rgba.size() / (image.bits == 16 ? 2 : 1), 0.0f);
     }
     if (image.width != width_ || image.height != height_ || image.bits != bits_)
         throw ImageError("the mean of images of different sizes");
     ++count_;
-    const auto& levels = light_of_levels();
-    for (std::size_t i = 0; i < light_.size(); ++i) {
-        const std::size_t channel = i / 3 * 4 + i % 3;
-        if (bits_ == 16) {
-            std::uint16_t level = 0;
-            std::memcpy(&level, &image.rgba[channel * 2], 2);
-            light_[i] += linear_from_srgb(static_cast<float>(level) / 65535.0f);
-        } else {
-            light_[i] += levels[image.rgba[channel]];
-        }
-    }
+    for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += light_at(image, i);
 }
 
 Image MeanImage::image() const {
     Image made{width_, height_, {}, bits_};
-    const std::size_t bytes = bits_ == 16 ? 2 : 1;
-    made.rgba.assign(light_.size() / 3 * 4 * bytes, 255);
+    made.rgba.resize(light_.size() * (bits_ == 16 ? 2 : 1));
     const float part = 1.0f / static_cast<float>(count_);
-    for (std::size_t i = 0; i < light_.size(); ++i) {
-        const std::size_t channel = i / 3 * 4 + i % 3;
-        if (bits_ == 16) {
-            const std::uint16_t level = word_of_light(light_[i] * part);
-            std::memcpy(&made.rgba[channel * 2], &level, 2);
-        } else {
-            made.rgba[channel] = level_of_light(std::min(light_[i] * part, 1.0f));
-        }
-    }
+    for (std::size_t i = 0; i < light_.size(); ++i) set_light(made, i, light_[i] * part);
     return made;
 }
 

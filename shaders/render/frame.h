@@ -46,7 +46,7 @@ struct Frame {
     vec4 ray_down;         // step per pixel downwards; w: height, pixels
     vec4 eye;              // world position, m; w: fading distance of the ground grid, m
     vec4 toward_sun;       // direction to the sun, unit; w: 1 with shadows
-    vec4 toward_sky;       // direction up, unit; w: samples per pixel
+    vec4 toward_sky;       // direction up, unit; w: samples per pixel; above 1: alpha is cover, else luminance
     vec4 scale;            // low, high (logarithms or roots of them); 1: of logarithms, 2: of roots; COLOR_BY_*
     vec4 maps;             // texel sizes of shadow map and sky map, m; the same as fractions of the maps
     vec4 pixel;   // pixel width at distance 1 m (orthographic: everywhere), m; depth of the sky map, m; height at which occlusion

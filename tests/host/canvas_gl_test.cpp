@@ -1,4 +1,5 @@
 // The OpenGL ES canvas: offscreen, from host memory, on any thread. Canvas and test need no Vulkan.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <thread>
@@ -72,6 +73,30 @@ TEST_CASE("gl: a box is drawn where it is, its upper side up", "[canvas][gl]") {
     CHECK(change(94, 69) < 10);
     CHECK(change(66, 31) < 10);
     CHECK(with.rgba[4 * (50 * 160 + 80) + 3] == 255);
+}
+
+TEST_CASE("gl: without background a picture is clear but for bodies, and for shadows as opaque as they are dark",
+          "[canvas][gl]") {
+    const Bodies bodies;
+    CanvasOptions options = small();
+    options.background = false;
+    options.legend = false;
+    options.toward_sun = {-1, 1, 0};
+    const std::unique_ptr<Canvas> canvas = make_gl_canvas(bodies.shapes, options);
+    canvas->set_tables(bodies.tables());
+    const Image image = canvas->draw({.eye = {0, 4, 10}, .target = {0, 2, 0}}, {}, "", vec3(-4, 0, -4), vec3(4));
+    const auto alpha = [&](int x, int y) { return int{image.rgba[4 * static_cast<std::size_t>(y * image.width + x) + 3]}; };
+    CHECK(alpha(80, 5) == 0);
+    CHECK(alpha(80, 50) == 255);
+    // The box's shadow lies to its right on the ground, the sunlit ground to its left.
+    CHECK(alpha(20, 80) == 0);
+    int darkest = 0;
+    for (int x = 85; x < 140; ++x) {
+        darkest = std::max(darkest, alpha(x, 82));
+        if (alpha(x, 82) < 255 && alpha(x, 82) > 0) CHECK(brightness(image, x, 82) < 3 * 160);
+    }
+    CHECK(darkest > 100);
+    CHECK(darkest < 255);
 }
 
 TEST_CASE("gl: the same state gives the same pixels, on this canvas and on another, from this thread and from another",

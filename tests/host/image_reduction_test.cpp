@@ -54,3 +54,19 @@ TEST_CASE("a level stays itself when reduced", "[image]") {
     std::memcpy(&mean, reduced(fine, 2).rgba.data(), 2);
     CHECK(std::abs(int{mean} - int{level}) <= 1);
 }
+
+TEST_CASE("a mean of clear and opaque pixels is as opaque as there are opaque ones, and its straight colour is theirs",
+          "[image]") {
+    Image image{2, 2, std::vector<std::uint8_t>(16)};
+    for (const std::size_t k : {0, 1, 2, 3}) image.rgba[k] = k == 3 ? 255 : 200;
+    const Image mean = reduced(image, 2);
+    CHECK(int{mean.rgba[3]} == 64);
+    const Image made = straight(mean);
+    CHECK(std::abs(int{made.rgba[0]} - 200) <= 1);
+    CHECK(made.rgba[3] == mean.rgba[3]);
+    MeanImage sum;
+    sum.add(image);
+    sum.add(Image{2, 2, std::vector<std::uint8_t>(16)});
+    CHECK(int{sum.image().rgba[3]} == 128);
+    CHECK(std::abs(int{straight(sum.image()).rgba[1]} - 200) <= 1);
+}

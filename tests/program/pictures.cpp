@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/pictures/image.h"
 #include "tests/program/program.h"
 
 using nlohmann::json;
@@ -467,4 +468,24 @@ TEST_CASE("program: one moment or a range of them is drawn, and the run ends the
     require_refused("stack --frame-range 2:1" + to, {"--frame-range", "FROM < TO"});
     require_refused("stack --frame-at 1", {"--frame-at", "no pictures are asked for"});
     CHECK_FALSE(std::filesystem::exists(place / "none"));
+}
+
+TEST_CASE("program: without background frames are transparent, on both canvases, and other outputs are refused", "[program]") {
+    const Place place;
+    const std::string canvas = GENERATE("gl", "vulkan");
+    const Outcome run = run_scree("run stack --background none --frame-at 0.1 --no-legend --no-caption " + small + "--canvas " +
+                                  canvas + " --quiet --frames '" + (place / "f").string() + "'");
+    INFO(run.errors);
+    if (canvas == "vulkan" && run.status != 0) return;  // a build or machine without Vulkan
+    REQUIRE(run.status == 0);
+    const scree::host::Image image = scree::host::read_png(place / "f/frame_000000.png");
+    std::array<int, 256> alphas{};
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) ++alphas[image.rgba[i]];
+    const int pixels = image.width * image.height;
+    CHECK(alphas[0] > pixels / 4);
+    CHECK(alphas[255] > pixels / 100);
+    CHECK(alphas[0] + alphas[255] < pixels);  // edges and shadows
+    require_refused("stack --background none --video '" + (place / "a.mp4").string() + "'", {"--background none", "--video"});
+    require_refused("stack --background none --raw -", {"--background none", "--raw"});
+    require_refused("stack --background red --frames '" + (place / "g").string() + "'", {"--background", "red", "none"});
 }

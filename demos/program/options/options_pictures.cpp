@@ -198,6 +198,10 @@ void PictureOptions::require_sense(const CLI::App& command) const {
     if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
     if (channels.empty() && command.count("--channel-files") != 0)
         throw UsageError("--channel-files: no channels are asked for; add --channels depth,ids");
+    for (const char* option : {"--video", "--preview", "--raw"}) {
+        if (background == "none" && command.count(option) != 0)
+            throw UsageError(fmt::format("--background none: {} has no transparency; write --frames alone", option));
+    }
     if (wanted()) return;
     for (const CLI::Option* option : command.get_options()) {
         const std::string& group = option->get_group();
@@ -270,6 +274,13 @@ void add_options(CLI::App& command, PictureOptions& options) {
                     "Light and background: day, evening (a low, warm sun), overcast (faint shadows), studio (light grey), "
                     "night (moonlight). Default: the scene's, mostly day.")
         ->check(one_of(sky_words()))
+        ->group(group);
+    command
+        .add_option(
+            "--background", options.background,
+            "sky, or none: frames are transparent but for bodies, overlays, legend and caption. Planes leave the shadows on "
+            "them, black and as opaque as they are dark; there is no haze. Default: sky.")
+        ->check(one_of({"sky", "none"}))
         ->group(group);
     command
         .add_option_function<std::string>("--sun", Set([&options](const std::string& word) { set_sun(options, word); }),

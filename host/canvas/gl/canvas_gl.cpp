@@ -186,7 +186,7 @@ Image GlCanvas::Impl::read_picture() const {
 
 bool GlCanvas::Impl::has_parts() const {
     const bool overlaid = options.marks || options.velocities || options.boxes || options.cells || options.joints;
-    return options.samples == 1 && options.bits == 8 && !overlaid && !smooths_on_device(options) &&
+    return options.samples == 1 && options.bits == 8 && options.background && !overlaid && !smooths_on_device(options) &&
            context.has("GL_NV_read_depth");
 }
 
@@ -230,7 +230,8 @@ Image GlCanvas::finish() {
     const Impl& in = *interior_;
     const GlContext::Current current(in.context);
     Image image = in.read_picture();
-    if (in.options.samples == 1 && !smooths_on_device(in.options)) in.options.smooth ? smooth_edges(image) : make_opaque(image);
+    if (in.options.samples == 1 && in.options.background && !smooths_on_device(in.options))
+        in.options.smooth ? smooth_edges(image) : make_opaque(image);
     return image;
 }
 

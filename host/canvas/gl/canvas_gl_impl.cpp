@@ -56,8 +56,11 @@ void GlCanvas::Impl::make_state() {
     // opposite winding.
     gl.glFrontFace(GL_CW);
     gl.glEnable(GL_DEPTH_TEST);
-    // Keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges in alpha.
-    gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    // Before a background keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges
+    // in alpha.
+    const bool covers = !options.background;
+    gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, covers ? GL_ONE : GL_ZERO,
+                           covers ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
     gl.glClearColor(0, 0, 0, 0);
     gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -231,11 +231,12 @@ Image VulkanCanvas::finish() {
     if (options.bits == 16) {
         std::vector<std::uint16_t> halves(in.picture.bytes() / 2);
         in.picture.read(halves.data(), in.picture.bytes());
-        return image_of_halves(options.width, options.height, halves);
+        return image_of_halves(options.width, options.height, halves, !options.background);
     }
     Image image{options.width, options.height, std::vector<std::uint8_t>(in.picture.bytes())};
     in.picture.read(image.rgba.data(), image.rgba.size());
-    if (options.samples == 1 && !smooths_on_device(options)) options.smooth ? smooth_edges(image) : make_opaque(image);
+    if (options.samples == 1 && options.background && !smooths_on_device(options))
+        options.smooth ? smooth_edges(image) : make_opaque(image);
     return image;
 }
 

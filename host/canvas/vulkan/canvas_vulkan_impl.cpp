@@ -122,7 +122,7 @@ void VulkanCanvas::Impl::make_pipelines() {
             pipelines.push_back(pipelines[at]);
             continue;
         }
-        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height};
+        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height, !options.background};
         if (state.pass == Pass::sun_map || state.pass == Pass::sky_map) {
             shape.pass = shadow_pass;
             shape.samples = 1;

@@ -95,10 +95,10 @@ struct FixedState {
         target.blendEnable = state.blends ? VK_TRUE : VK_FALSE;
         target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
         target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-        // Keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges in
-        // alpha.
-        target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-        target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        // Before a background keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects
+        // edges in alpha.
+        target.srcAlphaBlendFactor = shape.covers ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+        target.dstAlphaBlendFactor = shape.covers ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
         target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         blend.attachmentCount = state.pass == Pass::sun_map || state.pass == Pass::sky_map ? 0 : 1;

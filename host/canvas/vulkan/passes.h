@@ -28,6 +28,7 @@ struct PipelineShape {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     int samples = 1;
     int width = 0, height = 0;  // pixels
+    bool covers = false;        // blending adds to alpha
 };
 VkPipeline make_pipeline(VulkanObjectPool& objects, const PipelineShape& shape);
 
