@@ -60,8 +60,9 @@ std::vector<std::uint16_t> flow_levels(const std::vector<float>& flow) {
 ChannelWriter::ChannelWriter(const PictureOptions& options, const World& world)
     : folder_(options.frames),
       choice_(channels_named(options.channels)),
-      numpy_(options.channel_files != "png"),
-      png_(options.channel_files != "npy"),
+      layers_(options.frame_files == "exr"),
+      numpy_(!layers_ && options.channel_files != "png"),
+      png_(!layers_ && options.channel_files != "npy"),
       width_(options.width),
       height_(options.height) {
     const std::size_t bodies = world.scene().bodies.size();
@@ -72,7 +73,7 @@ ChannelWriter::ChannelWriter(const PictureOptions& options, const World& world)
                         bodies));
 }
 
-void ChannelWriter::add(const World& world, const host::Camera& camera) {
+std::vector<host::ExrLayer> ChannelWriter::add(const World& world, const host::Camera& camera) {
     const Before before{camera_before_.value_or(camera), static_cast<float>(camera_before_ ? world.time() - time_before_ : 0)};
     const Channels made = channels_of(world, camera, width_, height_, choice_, before);
     if (numpy_) write_numpy(made);
@@ -80,6 +81,25 @@ void ChannelWriter::add(const World& world, const host::Camera& camera) {
     camera_before_ = camera;
     time_before_ = world.time();
     ++count_;
+    return layers_ ? layers(made) : std::vector<host::ExrLayer>{};
+}
+
+std::vector<host::ExrLayer> ChannelWriter::layers(const Channels& made) const {
+    std::vector<host::ExrLayer> all;
+    // The numbers of a pixel lie side by side, one for each letter.
+    const auto put = [&](const std::string& layer, const std::string& letters, const auto& values) {
+        for (std::size_t k = 0; k < letters.size(); ++k) {
+            host::ExrLayer& one = all.emplace_back();
+            one.name = layer + letters[k];
+            for (std::size_t i = k; i < values.size(); i += letters.size()) one.values.push_back(static_cast<float>(values[i]));
+        }
+    };
+    if (choice_.depth) put("", "Z", made.depth);
+    if (choice_.body) put("ids.", "X", made.body);
+    if (choice_.part) put("parts.", "X", made.part);
+    if (choice_.normal) put("normals.", "XYZ", made.normal);
+    if (choice_.flow) put("flow.", "XY", made.flow);
+    return all;
 }
 
 std::filesystem::path ChannelWriter::file(const char* channel, const char* ending) const {

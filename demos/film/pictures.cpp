@@ -71,7 +71,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     host::CanvasOptions canvas;
     canvas.width = options.width * factor_of(options);
     canvas.height = options.height * factor_of(options);
-    canvas.bits = options.bits;
+    canvas.bits = options.drawn_bits();
     canvas.background = options.background != "none";
     canvas.legend = options.legend;
     canvas.smooth = options.samples == 1;  // averaged pictures are smooth
@@ -120,6 +120,7 @@ struct Pictures::Impl {
     CameraTrack track;
     std::string cameras;  // file; may be empty
     std::optional<ChannelWriter> channels;
+    std::vector<host::ExrLayer> layers{};  // of the picture that is being drawn
     PictureTimes times;
     std::optional<PastPoses> past{};  // for motion blur
     double shutter = 0;               // s
@@ -144,7 +145,7 @@ struct Pictures::Impl {
         if (!drawing_one) return;
         drawing_one = false;
         host::Image picture = timed(times.draw, [&] { return finished(); });
-        timed(times.encode_wait, [&] { writer->add(std::move(picture)); });
+        timed(times.encode_wait, [&] { writer->add(std::move(picture), std::move(layers)); });
     }
 
     void draw(const host::Camera& view) {
@@ -160,7 +161,7 @@ struct Pictures::Impl {
             drawing->canvas().begin(view, scale, caption(), low, high);
             mean.add(finished());
         }
-        timed(times.encode_wait, [&] { writer->add(mean.image()); });
+        timed(times.encode_wait, [&] { writer->add(mean.image(), std::move(layers)); });
     }
 
     // A part of a picture, on every rank.
@@ -204,6 +205,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                          CameraTrack(options.width, options.height),
                          options.cameras,
                          {},
+                         {},
                          {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
@@ -214,7 +216,8 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.frames_per_second = options.fps;
     writer.width = options.width;
     writer.height = options.height;
-    writer.bits = options.bits;
+    writer.bits = options.drawn_bits();
+    writer.exr = options.frame_files == "exr";
     writer.alpha = options.background == "none";
     const host::CanvasOptions canvas = canvas_for(options, subject, world);
     if (can_be_parts(options, subject, world)) in.part = PartDrawing::make(world, canvas);
@@ -265,11 +268,9 @@ void Pictures::after_step() {
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
         if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
-        if (in.past)
-            in.draw_blurred(camera);
-        else
-            in.draw(camera);
-        if (in.channels) in.channels->add(in.world, camera);
+        if (!in.past) in.draw(camera);
+        if (in.channels) in.layers = in.channels->add(in.world, camera);
+        if (in.past) in.draw_blurred(camera);
     });
     ++in.begun;
     if (!in.drawing->beside_steps()) in.take();

@@ -28,6 +28,7 @@ namespace {
 struct Job {
     int number = 0;
     std::shared_ptr<const Image> image;
+    std::shared_ptr<const std::vector<ExrLayer>> layers;
 };
 
 // A bounded queue of frames with its worker threads.
@@ -103,7 +104,7 @@ private:
 void require_no_frames(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (!name.starts_with("frame_") || !name.ends_with(".png")) continue;
+        if (!name.starts_with("frame_") || !(name.ends_with(".png") || name.ends_with(".exr"))) continue;
         throw ImageError(folder.string() + ": holds frames already, such as " + name + "; name another folder, or remove them");
     }
 }
@@ -193,9 +194,10 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     if (!options.video.empty()) in.add_video(in.video, options.video, Clip::film);
     if (!options.preview.empty()) in.add_video(in.preview, options.preview, preview);
     if (!options.folder.empty()) {
-        const auto write = [folder = options.folder, alpha = options.alpha](const Job& job) {
+        const auto write = [folder = options.folder, alpha = options.alpha, exr = options.exr](const Job& job) {
             char name[32];
-            std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
+            std::snprintf(name, sizeof name, "frame_%06d.%s", job.number, exr ? "exr" : "png");
+            if (exr) return write_exr(folder / name, *job.image, alpha, *job.layers);
             write_png(folder / name, alpha ? straight(*job.image) : *job.image);
         };
         in.add_output(encoders(options.threads), write, {});
@@ -211,8 +213,9 @@ FrameWriter::~FrameWriter() {
     }
 }
 
-void FrameWriter::add(Image image) {
-    const Job job{interior_->frames++, std::make_shared<const Image>(std::move(image))};
+void FrameWriter::add(Image image, std::vector<ExrLayer> layers) {
+    const Job job{interior_->frames++, std::make_shared<const Image>(std::move(image)),
+                  std::make_shared<const std::vector<ExrLayer>>(std::move(layers))};
     for (const Impl::Output& output : interior_->outputs) output.line->add(job);
 }
 

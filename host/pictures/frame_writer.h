@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
+#include "host/pictures/exr_file.h"
 #include "host/pictures/image.h"
 
 namespace scree::host {
@@ -18,6 +20,7 @@ struct FrameWriterOptions {
     int height = 720;    // pixels
     int bits = 8;        // per channel, 8 or 16
     int threads = 0;     // PNG encoders; 0: one, or two when there are more than four processors
+    bool exr = false;    // frame_000000.exr instead of .png
     bool alpha = false;  // frames have alpha, by which their light is multiplied; videos and raw frames drop it
     int waiting = 6;     // queue length at which add() blocks; bounds memory
 };
@@ -31,9 +34,10 @@ public:
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    void add(Image image);  // queues the next frame; blocks while the queue is full; throws the encoders' first error
-    void finish();          // waits until everything is on disk; throws the encoders' first error
-    int frames() const;     // added so far
+    // Queues the next frame; blocks while the queue is full; throws the encoders' first error. `layers`: of its EXR file.
+    void add(Image image, std::vector<ExrLayer> layers = {});
+    void finish();       // waits until everything is on disk; throws the encoders' first error
+    int frames() const;  // added so far
 
 private:
     struct Impl;

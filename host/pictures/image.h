@@ -1,6 +1,7 @@
 // Images in memory, and PNG files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -23,6 +24,8 @@ struct Image {
 
 // Converts RGBA half floats of linear light to an sRGB image of 16 bits per channel; without `alpha` it is opaque.
 Image image_of_halves(int width, int height, std::span<const std::uint16_t> halves, bool alpha = false);
+// The light, 0 to 1, of a channel of an image's pixels; of each fourth channel alpha.
+float light_at(const Image& image, std::size_t channel);
 // From light multiplied by alpha, as drawings are averaged and EXR files keep it, to the straight one of PNG files.
 Image straight(Image image);
 // The pixels without alpha: 3 or 6 bytes per pixel. Throws ImageError if rgba.size() does not match the image's size.

@@ -18,18 +18,6 @@ std::uint16_t word_of_light(float light) {
     return static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
 }
 
-// The light, 0 to 1, of a channel of an image, and for each fourth channel alpha.
-float light_at(const Image& image, std::size_t channel) {
-    if (image.bits != 16) {
-        const std::uint8_t level = image.rgba[channel];
-        return channel % 4 == 3 ? static_cast<float>(level) / 255.0f : light_of_levels()[level];
-    }
-    std::uint16_t level = 0;
-    std::memcpy(&level, &image.rgba[channel * 2], 2);
-    const float part = static_cast<float>(level) / 65535.0f;
-    return channel % 4 == 3 ? part : linear_from_srgb(part);
-}
-
 void set_light(Image& image, std::size_t channel, float light) {
     const bool alpha = channel % 4 == 3;
     const float within = std::clamp(light, 0.0f, 1.0f);
@@ -42,6 +30,17 @@ void set_light(Image& image, std::size_t channel, float light) {
 }
 
 }  // namespace
+
+float light_at(const Image& image, std::size_t channel) {
+    if (image.bits != 16) {
+        const std::uint8_t level = image.rgba[channel];
+        return channel % 4 == 3 ? static_cast<float>(level) / 255.0f : light_of_levels()[level];
+    }
+    std::uint16_t level = 0;
+    std::memcpy(&level, &image.rgba[channel * 2], 2);
+    const float part = static_cast<float>(level) / 65535.0f;
+    return channel % 4 == 3 ? part : linear_from_srgb(part);
+}
 
 Image reduced(const Image& image, int factor) {
     if (factor < 1 || image.width % factor != 0 || image.height % factor != 0)

@@ -489,3 +489,26 @@ TEST_CASE("program: without background frames are transparent, on both canvases,
     require_refused("stack --background none --raw -", {"--background none", "--raw"});
     require_refused("stack --background red --frames '" + (place / "g").string() + "'", {"--background", "red", "none"});
 }
+
+TEST_CASE("program: EXR frames have channels as layers, which other programs read", "[program]") {
+    const Place place;
+    const std::string to = " --frames '" + (place / "f").string() + "'";
+    const Outcome run = run_scree(
+        "run stack --frame-at 0.1 --canvas gl --quiet --frame-files exr --channels depth,ids,normals --background none " + small +
+        to);
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    CHECK(std::distance(std::filesystem::directory_iterator(place / "f"), std::filesystem::directory_iterator()) == 1);
+    const std::string file = place.read("f/frame_000000.exr");
+    for (const std::string name : {"A", "B", "G", "R", "Z", "ids.X", "normals.X", "normals.Y", "normals.Z"})
+        CHECK(says(file, std::string(1, '\0') + name + std::string(1, '\0')));
+    // ffmpeg reads light and alpha.
+    const std::string raw = (place / "raw").string();
+    REQUIRE(std::system(("ffmpeg -v error -i '" + (place / "f/frame_000000.exr").string() + "' -f rawvideo -pix_fmt rgba64le '" +
+                         raw + "'")
+                            .c_str()) == 0);
+    CHECK(place.read("raw").size() == 96 * 64 * 8);
+    require_refused("stack --frame-files exr --video '" + (place / "a.mp4").string() + "'", {"--frame-files", "--frames"});
+    require_refused("stack --frame-files exr --channels ids --channel-files png" + to, {"--channel-files", "layers"});
+    require_refused("stack --frame-files tiff" + to, {"--frame-files", "tiff", "exr"});
+}

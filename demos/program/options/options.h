@@ -69,7 +69,8 @@ struct PictureOptions {
     std::string channel_files = "both";       // npy, png or both
     std::string canvas = "auto";              // auto, vulkan or gl
     int width = 1280, height = 720;
-    int bits = 8;  // per channel
+    int bits = 0;                     // per channel of what is drawn; 0: drawn_bits()
+    std::string frame_files = "png";  // or exr
     double fps = 30;
     double from = 0;              // s of simulated time, of the first picture
     std::optional<double> until;  // of the last; none: the end of the run
@@ -85,6 +86,8 @@ struct PictureOptions {
     int shutter_samples = 8;                     // pictures that are averaged
     bool legend = true, caption = true;
     int samples = 1;  // per pixel: 1, 4, 9 or 16, drawn as larger pictures
+    // Light of half floats for EXR files, where the canvas can.
+    int drawn_bits() const { return bits != 0 ? bits : frame_files == "exr" && canvas != "gl" ? 16 : 8; }
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
     // Throws UsageError for an output without a name, for picture options without an output, and for two outputs
     // (`report` among them) to one file.

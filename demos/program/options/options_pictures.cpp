@@ -134,7 +134,16 @@ void add_camera(CLI::App& command, CameraOptions& options) {
 void add_outputs(CLI::App& command, PictureOptions& options) {
     const char* group = "Pictures";
     command.add_option("--frames", options.frames, "Folder for frame_000000.png and so on.")->group(group);
-    command.add_option("--png-depth", options.bits, "Bits per channel of PNG and raw frames, 8 or 16. Default: 8.")
+    command
+        .add_option(
+            "--frame-files", options.frame_files,
+            "png, or exr: linear light in half floats, with the channels of --channels as layers of floats: Z, ids.X, parts.X, "
+            "normals.X to .Z, flow.X and .Y. Default: png.")
+        ->check(one_of({"png", "exr"}))
+        ->group(group);
+    command
+        .add_option("--png-depth", options.bits,
+                    "Bits per channel that frames are drawn with, 8 or 16 (needs Vulkan). Default: 8, for EXR files 16.")
         ->check(CLI::IsMember({8, 16}))
         ->group(group);
     command.add_option("--video", options.video, "Video file, NAME.mp4 (needs ffmpeg).")->group(group);
@@ -196,6 +205,10 @@ void PictureOptions::require_sense(const CLI::App& command) const {
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
     if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
+    if (frames.empty() && command.count("--frame-files") != 0)
+        throw UsageError("--frame-files: no frames are asked for; add --frames DIR");
+    if (frame_files == "exr" && command.count("--channel-files") != 0)
+        throw UsageError("--channel-files: with --frame-files exr the channels are layers of the frames; leave it out");
     if (channels.empty() && command.count("--channel-files") != 0)
         throw UsageError("--channel-files: no channels are asked for; add --channels depth,ids");
     for (const char* option : {"--video", "--preview", "--raw"}) {
