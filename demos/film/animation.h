@@ -19,8 +19,9 @@ struct AnimatedBody {
     std::string name;
     Drawn drawn;
     bool plane = false, moves = false;
-    double inverse_mass = 0;  // 1/kg
-    bool existed = true;      // at the start
+    std::optional<glm::vec3> color{};  // linear, where the body has its own
+    double inverse_mass = 0;           // 1/kg
+    bool existed = true;               // at the start
     bool exists = true;
     glm::vec3 start_position{0};  // m; planes stand in the world
     glm::vec4 start_orientation{0, 0, 0, 1};

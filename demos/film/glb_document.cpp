@@ -50,7 +50,7 @@ public:
             if (node.keys[k] > 1) add_channel(node, k);
         ++node_count_;
     }
-    GlbDocument finish(double greatest) {
+    GlbDocument finish(double greatest, const std::vector<glm::vec3>& own) {
         const std::string animation =
             sampler_count_ == 0 ? ""
                                 : fmt::format(",\n\"animations\":[{{\"name\":\"run\",\"samplers\":[{}],\n\"channels\":[{}]}}]",
@@ -63,7 +63,7 @@ public:
             "\"nodes\":[{}],\n\"meshes\":[{}],\n\"materials\":[{}],\n\"accessors\":[{}],\n"
             "\"bufferViews\":[{{\"buffer\":0,\"byteLength\":{},\"byteStride\":12,\"target\":34962}}{}],\n"
             "\"buffers\":[{{\"byteLength\":{}}}]{}}}",
-            roots_, nodes_, mesh_list_, materials(greatest), accessors_, made_.mesh_bytes.size(), second_view,
+            roots_, nodes_, mesh_list_, materials(greatest, own), accessors_, made_.mesh_bytes.size(), second_view,
             made_.mesh_bytes.size() + made_.animation_bytes, animation);
         return std::move(made_);
     }
@@ -99,18 +99,24 @@ private:
         append(animated_, fmt::format(R"({{"sampler":{},"target":{{"node":{},"path":"{}"}}}})", sampler_count_++, node_count_,
                                       channel_paths[k]));
     }
-    static std::string materials(double greatest) {
+    static std::string materials(double greatest, const std::vector<glm::vec3>& own) {
         std::string list;
+        const auto add = [&](const std::string& name, glm::vec3 color) {
+            append(list, fmt::format(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],)"
+                                     R"("metallicFactor":0,"roughnessFactor":0.7}}}})",
+                                     name, color.r, color.g, color.b));
+        };
         for (std::size_t k = 0; k <= glb_colors; ++k) {
             const double place = (static_cast<double>(k) + 0.5) / glb_colors;
             const bool fixed = k == glb_colors;
             const glm::vec3 color =
                 fixed ? glm::vec3(0.40f, 0.385f, 0.36f) : host::map_color(host::ColorMap::ember, static_cast<float>(place));
-            append(list, fmt::format(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],)"
-                                     R"("metallicFactor":0,"roughnessFactor":0.7}}}})",
-                                     fixed ? "fixed" : fmt::format("momentum {:.3g} kg m/s", greatest * place * place), color.r,
-                                     color.g, color.b));
+            add(fixed ? "fixed" : fmt::format("momentum {:.3g} kg m/s", greatest * place * place), color);
         }
+        for (const glm::vec3& color : own)
+            add(fmt::format("color #{:02x}{:02x}{:02x}", host::srgb_byte(color.r), host::srgb_byte(color.g),
+                            host::srgb_byte(color.b)),
+                color);
         return list;
     }
 
@@ -123,10 +129,11 @@ private:
 
 }  // namespace
 
-GlbDocument glb_document(const std::vector<GlbNode>& nodes, const std::vector<Triangles>& meshes, double greatest) {
+GlbDocument glb_document(const std::vector<GlbNode>& nodes, const std::vector<Triangles>& meshes, double greatest,
+                         const std::vector<glm::vec3>& own) {
     Lists lists(meshes);
     for (const GlbNode& node : nodes) lists.add(node);
-    return lists.finish(greatest);
+    return lists.finish(greatest, own);
 }
 
 }  // namespace scree::demos

@@ -16,7 +16,7 @@ enum GlbChannel : std::uint32_t { glb_translation, glb_rotation, glb_scale };
 constexpr std::size_t glb_channels = 3;
 // Bytes of a key's value: floats, and quaternions in normalised 16 bits (to 0.004 degrees).
 constexpr std::array<std::size_t, glb_channels> glb_value_bytes{12, 8, 12};
-// Materials: colours of momentum from none to the most; the next one is that of what does not move.
+// Materials: colours of momentum from none to the most; the next one is that of what does not move; then bodies' own.
 constexpr std::size_t glb_colors = 24;
 
 struct GlbNode {
@@ -35,7 +35,8 @@ struct GlbDocument {
     // Behind those: node by node, channel by channel the times, then the values, of what has two keys or more.
     std::uint64_t animation_bytes = 0;
 };
-// `greatest`: the momentum of the last colour, kg m/s.
-GlbDocument glb_document(const std::vector<GlbNode>& nodes, const std::vector<Triangles>& meshes, double greatest);
+// `greatest`: the momentum of the last colour, kg m/s; `own`: further colours, linear.
+GlbDocument glb_document(const std::vector<GlbNode>& nodes, const std::vector<Triangles>& meshes, double greatest,
+                         const std::vector<glm::vec3>& own);
 
 }  // namespace scree::demos

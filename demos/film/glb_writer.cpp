@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -57,7 +58,8 @@ struct GlbWriter::Impl {
     }
     double greatest_momentum() const;
     std::size_t color_of(std::size_t index, bool moves, double greatest) const;
-    std::vector<GlbNode> nodes(const Animated& all) const;
+    // Fills `own` with the colours that bodies have.
+    std::vector<GlbNode> nodes(const Animated& all, std::vector<glm::vec3>& own) const;
     void put_keys(host::GrowingFile& file);
 };
 
@@ -94,13 +96,20 @@ std::size_t GlbWriter::Impl::color_of(std::size_t index, bool moves, double grea
     return std::min(static_cast<std::size_t>(place * glb_colors), glb_colors - 1);
 }
 
-std::vector<GlbNode> GlbWriter::Impl::nodes(const Animated& all) const {
+std::vector<GlbNode> GlbWriter::Impl::nodes(const Animated& all, std::vector<glm::vec3>& own) const {
     const double greatest = greatest_momentum();
+    std::map<std::array<float, 3>, std::size_t> places;  // of colours in `own`
+    const auto place_of = [&](glm::vec3 color) {
+        const auto [at, fresh] = places.try_emplace({color.r, color.g, color.b}, own.size());
+        if (fresh) own.push_back(color);
+        return at->second;
+    };
     std::vector<GlbNode> made;
     for (std::size_t i = 0; i < all.bodies.size(); ++i) {
         const AnimatedBody& body = all.bodies[i];
-        made.push_back({body.name, body.drawn.mesh, color_of(i, body.moves, greatest), body.start_position,
-                        body.start_orientation, body.existed ? body.drawn.scale : glm::vec3(0), bodies[i].keys, bodies[i].last});
+        const std::size_t color = body.color ? glb_colors + 1 + place_of(*body.color) : color_of(i, body.moves, greatest);
+        made.push_back({body.name, body.drawn.mesh, color, body.start_position, body.start_orientation,
+                        body.existed ? body.drawn.scale : glm::vec3(0), bodies[i].keys, bodies[i].last});
     }
     return made;
 }
@@ -173,7 +182,9 @@ void GlbWriter::write(const Animated& all) {
         in.bodies[i].places.finish([&](float at, glm::vec3 key) { in.emit(i, glb_translation, at, glm::vec4(key, 0)); });
         in.bodies[i].turns.finish([&](float at, glm::vec4 key) { in.emit(i, glb_rotation, at, key); });
     }
-    GlbDocument document = glb_document(in.nodes(all), all.meshes, in.greatest_momentum());
+    std::vector<glm::vec3> own;
+    const std::vector<GlbNode> nodes = in.nodes(all, own);
+    GlbDocument document = glb_document(nodes, all.meshes, in.greatest_momentum(), own);
     document.json.append((4 - document.json.size() % 4) % 4, ' ');
     const std::uint64_t binary = document.mesh_bytes.size() + document.animation_bytes,
                         whole = 12 + 8 + document.json.size() + 8 + binary;

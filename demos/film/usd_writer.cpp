@@ -56,7 +56,10 @@ Bodies bodies_that(const Animated& all, bool move) {
     return chosen;
 }
 
-// What does not change over time: which mesh each body has, its id and its scale.
+// The light grey of bodies without a colour beside others, linear, as in pictures (shaders/render/tint.comp).
+constexpr glm::vec3 uncolored(0.55f, 0.53f, 0.50f);
+
+// What does not change over time: which mesh each body has, its id, its scale and its colour.
 void put_instancer(host::GrowingFile& file, const std::string& opening, const Bodies& bodies, std::size_t meshes) {
     Line line;
     const auto out = std::back_inserter(line);
@@ -66,6 +69,11 @@ void put_instancer(host::GrowingFile& file, const std::string& opening, const Bo
     put_list(line, bodies, [&](const AnimatedBody* body) { fmt::format_to(out, "{}", body->drawn.mesh); });
     fmt::format_to(out, "\n        float3[] scales = ");
     put_list(line, bodies, [&](const AnimatedBody* body) { put(line, body->drawn.scale); });
+    if (std::any_of(bodies.begin(), bodies.end(), [](const AnimatedBody* body) { return body->color.has_value(); })) {
+        fmt::format_to(out, "\n        color3f[] primvars:displayColor = ");
+        put_list(line, bodies, [&](const AnimatedBody* body) { put(line, body->color.value_or(uncolored)); });
+        fmt::format_to(out, " (\n            interpolation = \"vertex\"\n        )");
+    }
     fmt::format_to(out, "\n        rel prototypes = [");
     for (std::size_t m = 0; m < meshes; ++m) fmt::format_to(out, "{}</World/Shapes/shape_{}>", m > 0 ? ", " : "", m);
     fmt::format_to(out, "]\n");

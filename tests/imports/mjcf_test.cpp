@@ -351,3 +351,20 @@ TEST_CASE("imports: a quadruped of an MJCF file stands on its motors") {
     const float upright = 1 - 2 * (at.orientation.x * at.orientation.x + at.orientation.z * at.orientation.z);
     CHECK(std::abs(upright) < 0.2f);  // the trunk's own axes are those of its inertia; its z axis lies along
 }
+
+TEST_CASE("imports: geoms of MJCF have the colours of their materials, but where they have their own") {
+    Case file;
+    const std::string text =
+        "<mujoco><default><material specular='1'/><default class='c'><geom material='red'/></default></default>"
+        "<asset><material name='red' rgba='1 0 0 1' texture='t'/><material name='plain'/></asset><worldbody>"
+        "<geom size='1' material='red'/><geom size='1' class='c' rgba='0 1 0 1'/><geom size='1' class='c'/>"
+        "<geom size='1' material='plain'/></worldbody></mujoco>";
+    const Scene scene = file.load("a.xml", text).scene;
+    REQUIRE(scene.bodies.size() == 4);
+    CHECK(scene.bodies[0].color == vec3(1, 0, 0));
+    CHECK(scene.bodies[1].color == vec3(0, 1, 0));
+    CHECK(scene.bodies[2].color == vec3(1, 0, 0));
+    CHECK_FALSE(scene.bodies[3].color);
+    CHECK(file.noted("texture"));
+    CHECK(file.refusal("a.xml", mjcf("<geom size='1' material='gold'/>")).find("gold") != std::string::npos);
+}

@@ -177,6 +177,31 @@ TEST_CASE("imports: links of a URDF without inertial properties have those of th
     CHECK(file.notes.empty());
 }
 
+TEST_CASE("imports: links of a URDF have the colours of their materials, by name or in place") {
+    Case file;
+    const std::string box = "<geometry><box size='1 1 1'/></geometry>";
+    const std::string text =
+        "<robot name='r'><link name='a'><inertial><mass value='1'/></inertial><visual>" + box +
+        "<material name='blue'/></visual><collision>" + box + "</collision></link><link name='b'><visual>" + box +
+        "<material name='m'><color rgba='1 0.5 0 0.3'/><texture filename='t.png'/></material></visual><collision>" + box +
+        "</collision></link><link name='c'><visual>" + box + "<material name='none'/></visual><collision>" + box +
+        "</collision></link><material name='blue'><color rgba='0 0 1 1'/></material>" +
+        "<joint name='j' type='floating'><parent link='a'/><child link='b'/></joint>" +
+        "<joint name='k' type='floating'><parent link='a'/><child link='c'/></joint></robot>";
+    const Scene scene = file.load("a.urdf", text, {.base = ImportedBase::free}).scene;
+    REQUIRE(scene.bodies.size() == 3);
+    CHECK(scene.bodies[0].color == vec3(0, 0, 1));
+    CHECK(scene.bodies[1].color == vec3(1, 0.5f, 0));
+    CHECK_FALSE(scene.bodies[2].color);
+    CHECK(file.noted("no material of this name"));
+    CHECK(file.noted("texture"));
+    // What stands still are bodies of their own: what is drawn and what collides, both in its colour.
+    for (const Body& body : file.load("a.urdf", text).scene.bodies)
+        if (body.motion == Motion::fixed) CHECK(body.color == vec3(0, 0, 1));
+    CHECK(file.refusal("a.urdf", "<robot name='r'><link name='a'/><material name='x'><color/></material></robot>").find("rgba") !=
+          std::string::npos);
+}
+
 TEST_CASE("imports: meshes of packages are found beside the file, and nowhere else") {
     Case file;
     const auto with = [](const std::string& mesh) {

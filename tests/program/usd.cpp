@@ -99,3 +99,21 @@ TEST_CASE("program: value clips of a .usda have the samples of the whole, each a
         CHECK(says(manifest, attribute));
     CHECK(run_scree("run " + scene + " --export " + (place / "run.glb").string() + " --export-clips 4").status == 2);
 }
+
+TEST_CASE("program: animations have the colours of bodies that have some") {
+    const Place place;
+    const std::string ball = R"({"shape": {"sphere": {"radius": 0.5}}, "position": )";
+    const std::string scene = place.write("scene.json", R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}},)" + ball +
+                                                            R"([0, 5, 0], "color": [1, 0, 0.7353569]},)" + ball + "[0, 9, 0]}]}");
+    for (const std::string name : {"run.usda", "run.glb"}) {
+        const Outcome run = run_scree("run " + scene + " --backend cpu --steps 2 --quiet --export " + (place / name).string());
+        INFO(run.errors);
+        REQUIRE(run.status == 0);
+    }
+    const std::string usda = place.read("run.usda"), glb = place.read("run.glb");
+    CHECK(says(usda, "primvars:displayColor = [(1, 0, 0.5"));
+    CHECK(says(usda, "), (0.55, 0.53, 0.5)] ("));
+    CHECK(usda.find("displayColor") == usda.rfind("displayColor"));  // the fixed ones have none
+    CHECK(says(glb, R"("name":"color #ff00bc","pbrMetallicRoughness":{"baseColorFactor":[1,0,0.5)"));
+    CHECK(says(glb, R"("material":25})"));
+}

@@ -186,6 +186,10 @@ void Mjcf::read_assets(const host::XmlElement& tree) {
                 read_terrain(child);
                 continue;
             }
+            if (child.name == "material") {
+                read_material(child);
+                continue;
+            }
             Element(child, notes_).note("", "is not drawn");
             if (child.name == "model") Element(child, notes_).refuse("models in models are not read; include the file");
             continue;
@@ -196,6 +200,19 @@ void Mjcf::read_assets(const host::XmlElement& tree) {
         if (name.empty()) element.refuse("has neither name nor file");
         if (!meshes_.try_emplace(name, MeshAsset{&child, ""}).second) element.refuse("there are two of this name");
     }
+}
+
+void Mjcf::read_material(const host::XmlElement& tree) {
+    Element element = this->element(tree, {});
+    const std::string name = element.text("name");
+    if (name.empty()) element.refuse("has no name");
+    std::optional<vec3> color;
+    if (const std::vector<double> rgba = element.numbers("rgba", 3, 4); !rgba.empty())
+        color = glm::clamp(vec3(dvec3(rgba[0], rgba[1], rgba[2])), 0.0f, 1.0f);
+    element.ignore({"texture"}, "is left out; bodies have colours and no textures");
+    element.pass({"texrepeat", "texuniform", "emission", "specular", "shininess", "reflectance", "metallic", "roughness"});
+    element.finish();
+    if (!materials_.try_emplace(name, color).second) element.refuse("there are two of this name");
 }
 
 void Mjcf::note_section(const host::XmlElement& tree) {

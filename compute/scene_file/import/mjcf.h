@@ -58,6 +58,7 @@ private:
     void read_defaults(const host::XmlElement& tree, const std::string& parent, int depth);
     void read_assets(const host::XmlElement& tree);
     void read_terrain(const host::XmlElement& tree);
+    void read_material(const host::XmlElement& tree);
     void note_section(const host::XmlElement& tree);
     Element element(const host::XmlElement& tree, const Where& where);
     const OfTags& defaults_of(const Element& element, const std::string& name);
@@ -103,6 +104,7 @@ private:
     Compiler compiler_;
     std::map<std::string, OfTags> defaults_{{"main", {}}};
     std::map<std::string, MeshAsset> meshes_;
+    std::map<std::string, std::optional<vec3>> materials_;  // their colours, sRGB
     std::map<std::string, const host::XmlElement*> terrains_;
     std::set<std::string> included_;
     std::size_t elements_ = 0, inherited_ = 0, geoms_ = 0;

@@ -221,7 +221,11 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
     }
     if (const std::vector<double> rgba = geom.numbers("rgba", 3, 4); !rgba.empty())
         geometry.color = glm::clamp(vec3(dvec3(rgba[0], rgba[1], rgba[2])), 0.0f, 1.0f);
-    geom.ignore({"material"}, "is left out; pictures show the geom's own rgba, or what --color says");
+    if (const std::string name = geom.text("material"); !name.empty()) {
+        const auto material = materials_.find(name);
+        if (material == materials_.end()) geom.refuse("material", "there is no material \"" + name + "\"");
+        if (!geometry.color) geometry.color = material->second;
+    }
     geom.ignore({"user", "fitscale"}, "is left out; no motion depends on it");
     geom.finish();
     const bool shown = geometry.solid || !compiler_.discard_visual;

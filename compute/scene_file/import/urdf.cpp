@@ -37,6 +37,7 @@ private:
     void read_link(const host::XmlElement& tree, ModelBody& body);
     void read_shape(const host::XmlElement& tree, bool solid, ModelBody& body);
     bool read_mesh(Element& mesh, const Placed& at, const Geometry& like, ModelBody& body);
+    std::optional<vec3> material(const host::XmlElement& tree);
     SolidMass inertial(const host::XmlElement& tree);
     Placed origin(const host::XmlElement& tree);
 
@@ -48,6 +49,7 @@ private:
     std::map<std::string, const host::XmlElement*> links_;
     std::map<std::string, std::vector<Child>> children_;
     std::set<std::string> is_child_;
+    std::map<std::string, vec3> colors_;  // sRGB, of materials by name
     int depth_ = 0;
 };
 
@@ -127,6 +129,29 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
     return true;
 }
 
+// The colour of a material, which has its own or is that of its name elsewhere in the file.
+std::optional<vec3> Urdf::material(const host::XmlElement& tree) {
+    Element element(tree, notes_);
+    const std::string name = element.text("name");
+    element.finish();
+    std::optional<vec3> color;
+    for (const host::XmlElement& child : tree.children) {
+        Element inside(child, notes_);
+        if (child.name != "color") {
+            inside.note("", "is left out; bodies have colours and no textures");
+            continue;
+        }
+        const std::vector<double> rgba = inside.numbers("rgba", 3, 4);
+        if (rgba.empty()) inside.refuse("has no \"rgba\"");
+        color = glm::clamp(vec3(dvec3(rgba[0], rgba[1], rgba[2])), 0.0f, 1.0f);
+        inside.finish();
+    }
+    if (color && !name.empty()) colors_.try_emplace(name, *color);
+    if (const auto known = colors_.find(name); !color && known != colors_.end()) color = known->second;
+    if (!color && tree.children.empty()) element.note("", "has no colour, and no material of this name was described before");
+    return color;
+}
+
 void Urdf::read_shape(const host::XmlElement& tree, bool solid, ModelBody& body) {
     Element whole(tree, notes_);
     Geometry geometry;
@@ -141,7 +166,7 @@ void Urdf::read_shape(const host::XmlElement& tree, bool solid, ModelBody& body)
     if (inside->children.size() > 1) Element(*inside, notes_).refuse("has more than one shape");
     for (const host::XmlElement& child : tree.children) {
         if (child.name == "material")
-            Element(child, notes_).note("", "is left out; colours show momentum, or what --color says");
+            geometry.color = material(child);
         else if (child.name != "origin" && child.name != "geometry")
             Element(child, notes_).note("", "is unknown here and left out");
     }
@@ -190,6 +215,12 @@ void Urdf::read_link(const host::XmlElement& tree, ModelBody& body) {
             Element(child, notes_).note("", "is left out");
         }
     }
+    // What collides has no colour in a URDF; it takes that of what is drawn.
+    std::optional<vec3> first;
+    for (const Geometry& one : body.geometries)
+        if (!first) first = one.color;
+    for (Geometry& one : body.geometries)
+        if (!one.color) one.color = first;
 }
 
 void Urdf::read_axis(const host::XmlElement& tree, ModelJoint& joint) {
@@ -313,7 +344,7 @@ void Urdf::read_names(const host::XmlElement& root) {
             if (name.empty()) element.refuse("has no name");
             if (!links_.try_emplace(name, &child).second) element.refuse("there are two links of this name");
         } else if (child.name == "material") {
-            element.note("", "is left out; colours show momentum, or what --color says");
+            (void)material(child);
         } else if (child.name.starts_with("xacro:")) {
             element.refuse("is xacro; write the file with the program xacro first");
         } else if (child.name != "joint") {
