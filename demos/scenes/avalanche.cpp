@@ -109,13 +109,15 @@ DemoScene avalanche(const DemoOptions& options) {
     const vec3 low(back, 0, -v.half_width), high(2 * run_out, top, v.half_width);
     std::vector<vec3> seen;
     for (const float z : {-v.half_width, v.half_width}) {
-        for (const vec3& point : {vec3(back, top, z), vec3(v.edge(), v.terrace_top(), z), vec3(1.5f * run_out, 0, z)})
+        // Below the run-out there is room for legend and caption.
+        for (const vec3& point : {vec3(back - 0.1f * v.length, top, z), vec3(v.edge(), v.terrace_top(), z),
+                                  vec3(1.6f * run_out, 0, z), vec3(run_out, -0.12f * v.length, z)})
             seen.push_back(point);
     }
     const float seconds = 12 * std::sqrt(std::max(1.0f, v.length / 16.6f));  // fall times grow with the square root of lengths
     const float far = 20 * v.length;
     DemoScene made{std::move(scene),
-                   view_of(seen, 42, 20),
+                   view_of(seen, 24, 28),
                    low,
                    high,
                    seconds,

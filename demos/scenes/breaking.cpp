@@ -243,8 +243,12 @@ DemoScene shatter(const DemoOptions& options) {
         scene.bodies.push_back(body);
     }
     const vec3 low(-pit, 0, -pit), high(pit, 4 + spacing * side, pit);
+    // From all that falls to the pit where it bursts.
+    Viewpoint view = view_of(low, high, 30, 20);
+    const Viewpoint near = view_of(low - vec3(0, 0.3f * pit, 0), vec3(pit, 0.3f * pit, pit), 30, 24);
+    view.path = {{0.5f, view.eye, view.target, view.vertical_fov}, {2.5f, near.eye, near.target, near.vertical_fov}};
     return {std::move(scene),
-            view_of(low, high, 30, 20),
+            std::move(view),
             low,
             high,
             7,

@@ -38,7 +38,7 @@ const std::vector<Look>& looks() {
         {"pyramid", by(contact_impulse, 700), 38},
         {"seesaw", by(momentum, 500, {contacts, velocities})},
         {"slopes", by(momentum, 800, {velocities}), 39},
-        {"cradle", by(momentum, 1500, {velocities}), 42},
+        {"cradle", by(momentum, 1500, {velocities}), 35, vec3(0.5f, 3.2f, 12.2f), vec3(0.5f, 0.4f, 0)},
         {"dominoes", by(momentum, 100)},
         {"pile", by(momentum, 600)},
         {"mix", by(kinetic_energy, 3000)},
@@ -59,7 +59,7 @@ const std::vector<Look>& looks() {
         {"cars", by(speed, 14)},
         {"ring", by(contact_impulse, 260)},
         {"gables", by(contact_impulse, 260)},
-        {"net", by(speed, 8)},
+        {"net", by(height)},
         {"fountain", by(speed, 9)},
     };
     return all;

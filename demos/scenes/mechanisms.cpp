@@ -83,7 +83,7 @@ DemoScene cradle(const DemoOptions&) {
     const vec3 low(-5, 0, -1.6f), high(5, 1.6f, 1.6f);
     Promise promise(last_take_the_speed("one raised", one, 1, speed), others_stay("one raised", one, 1, speed),
                     last_take_the_speed("two raised", two, 2, speed), others_stay("two raised", two, 2, speed));
-    return {std::move(scene), view_of(low, high, 20, 16), low, high, 3, std::move(promise)};
+    return {std::move(scene), view_of(low, high, 0, 13), low, high, 3, std::move(promise)};
 }
 
 DemoScene dominoes(const DemoOptions& options) {

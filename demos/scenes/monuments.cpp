@@ -69,7 +69,7 @@ DemoScene gables(const DemoOptions& options) {
     }
     const vec3 high(0.5f * width * static_cast<float>(columns), 2 * brick.y * base, 0.5f * gap * static_cast<float>(rows));
     const vec3 low(-high.x, 0, -high.z);
-    return awake({std::move(scene), view_of(low, high, 30, 18), low, high, 20,
+    return awake({std::move(scene), view_of(low - vec3(0, 1.2f, 0), high, 30, 18), low, high, 20,
                   Promise(drift_below(0.04), end_speed_below(), sway_below(0.00018), penetration_below(0.0028))});
 }
 
