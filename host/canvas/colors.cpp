@@ -183,6 +183,15 @@ std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most
     return ticks;
 }
 
+float axis_end(float value) {
+    const float size = std::abs(value);
+    if (!(size > 0) || !std::isfinite(size)) return 0;
+    const float unit = std::pow(10.0f, std::floor(std::log10(size)));
+    for (const float round : {1.0f, 1.5f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 8.0f, 10.0f})
+        if (size <= round * unit * 1.0001f) return std::copysign(round * unit, value);
+    return value;
+}
+
 std::string tick_label(float value, bool logarithmic) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6));

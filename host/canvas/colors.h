@@ -70,5 +70,7 @@ float linear_from_srgb(float encoded);
 // logarithmic scale.
 std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most);
 std::string tick_label(float value, bool logarithmic);
+// A round number at or above a value, at most half as large again: where an axis ends. Below 0 likewise downwards.
+float axis_end(float value);
 
 }  // namespace scree::host

@@ -59,6 +59,19 @@ TEST_CASE("ticks are round numbers between the ends", "[canvas]") {
     CHECK(tick_label(2.5e-5f, false) == "2.5·10⁻⁵");
 }
 
+TEST_CASE("an axis ends at a round number that is not far beyond its values", "[canvas]") {
+    CHECK(axis_end(0) == 0);
+    CHECK(axis_end(27499) == 30000);
+    CHECK(axis_end(1) == 1);
+    CHECK(axis_end(-820) == -1000);
+    for (float value = 1e-6f; value < 1e9f; value *= 1.13f) {
+        INFO(value);
+        CHECK(axis_end(value) >= 0.9998f * value);
+        CHECK(axis_end(value) <= 1.51f * value);
+        CHECK(scale_ticks(0, axis_end(value), false, 3).size() >= 2);
+    }
+}
+
 TEST_CASE("text is measured by its letters and broken UTF-8 does no harm", "[canvas]") {
     CHECK(text_width("", 20) == 0);
     CHECK(text_width("momentum", 40) == Approx(2 * text_width("momentum", 20)));

@@ -17,11 +17,12 @@ namespace {
 constexpr ImU32 axis_color = IM_COL32(225, 228, 232, 255), grid_color = IM_COL32(255, 255, 255, 40),
                 curve_color = IM_COL32(255, 190, 60, 255);
 
-// A curve_color with its axes: values with their unit to the left, times below if asked for.
+// A curve with its axes: values with their unit to the left, times below if asked for.
 void plot_curve(const char* name, const char* unit, const std::vector<float>& times, const std::vector<float>& values,
                 float height, bool with_times) {
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-    const float low = std::min(0.0f, *lowest), high = std::max(*highest, low + 1e-6f);
+    // The axis ends at round numbers, so that there are two ticks at least and no curve runs along the rim.
+    const float low = std::min(0.0f, host::axis_end(*lowest)), high = std::max(host::axis_end(*highest), low + 1e-6f);
     say_line(fmt::format("{}: {}", name, with_unit(values.back(), unit)));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -32,7 +33,7 @@ void plot_curve(const char* name, const char* unit, const std::vector<float>& ti
     const auto x_of = [&](float time) { return left + (right - left) * (time - first) / (last - first); };
     const auto y_of = [&](float value) { return bottom - (bottom - top) * (value - low) / (high - low); };
     list.AddRectFilled(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));
-    const int most = std::max(2, static_cast<int>((bottom - top) / (2 * line)));
+    const int most = std::max(3, static_cast<int>((bottom - top) / (2 * line)));
     for (const float value : host::scale_ticks(low, high, false, most)) {
         list.AddLine(ImVec2(left, y_of(value)), ImVec2(right, y_of(value)), grid_color);
         const std::string label = host::tick_label(value, false);
@@ -65,7 +66,7 @@ void Panel::show_graphs(Session& session, Interaction& interaction, const Rates&
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(screen.x - 8, screen.y - 8), ImGuiCond_FirstUseEver, ImVec2(1, 1));
     ImGui::SetNextWindowSize(ImVec2(std::min(ems(30), 0.5f * screen.x), 0.8f * screen.y), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::SetNextWindowBgAlpha(0.97f);  // the legend lies below
     ImGui::Begin("graphs", &graphs_shown_,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     say_line(body ? "of " + name_of(session.world().scene(), *body) : "of the world; select a body for its own");
