@@ -9,7 +9,7 @@ import sys
 import typing
 import weakref
 from enum import IntEnum
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +43,7 @@ class EventKind(IntEnum):
     sensor_end = 8
 
 
-class DebugDrawing(NamedTuple):
+class DebugDrawing(typing.NamedTuple):
     """Lines and points of a world, in m, with colours in sRGB, 0 to 1."""
     lines: Floats  # (n, 2, 3): from and to
     line_colors: Floats  # (n, 3)
