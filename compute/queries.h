@@ -1,4 +1,4 @@
-// Queries of a world in batches: rays, shapes that are cast, and overlaps, against the bodies as they are now.
+// Queries of a world in batches: rays, shapes that are cast, overlaps and their depths, against the bodies as they are now.
 //
 //     std::vector<scree::RayQuery> rays = ...;
 //     const std::vector<std::optional<scree::QueryHit>> hits = world.cast_rays(rays);  // the nearest of each
@@ -26,10 +26,10 @@ struct RayQuery {
     std::size_t copy = 0;             // of the scene, in a world of several
 };
 
-// A convex shape that moves along a line without turning. No plane, no hull.
+// A convex shape, or a compound of solid convex parts, that moves along a line without turning. No plane, mesh or height field.
 struct ShapeCast {
-    SimpleShape shape = Sphere{};
-    vec3 from{0};                     // of its centre, m
+    Shape shape = Sphere{};
+    vec3 from{0};                     // of its centre, m; of a hull or compound the origin of its points or parts
     vec4 orientation{0, 0, 0, 1};     // quaternion x, y, z, w of any length but 0
     vec3 along{0, 0, -1};             // unit
     float reach = 1;                  // m, 0 to 1e6
@@ -37,10 +37,10 @@ struct ShapeCast {
     std::size_t copy = 0;             // likewise
 };
 
-// A convex shape somewhere. No plane, no hull.
+// Such a shape somewhere.
 struct ShapeOverlap {
-    SimpleShape shape = Sphere{};
-    vec3 position{0};              // of its centre, m
+    Shape shape = Sphere{};
+    vec3 position{0};              // as `from` of a cast, m
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w of any length but 0
     std::uint32_t mask = 0xFFFFFFFF;
     std::size_t copy = 0;  // as of a ray
@@ -58,7 +58,7 @@ struct QueryHit {
     std::size_t body = 0;
     std::uint32_t part = 0;  // of a compound the part, of a mesh or height field the triangle
     float distance = 0;      // along the ray or cast, m; 0 if it begins in the body
-    vec3 point{0};           // on the surface, m; of a cast the centre of the shape as it touches; of a
+    vec3 point{0};           // on the surface, m; of a cast where `from` has come to; of a
                              // point in the body that itself
     vec3 normal{0};          // of the surface, unit, outward; where it begins in the body against its direction
 };
@@ -77,6 +77,15 @@ struct QueryPart {
     std::size_t body = 0;
     std::uint32_t part = 0;
     bool operator==(const QueryPart& o) const { return body == o.body && part == o.part; }
+};
+
+// How deep a shape is in a body, of a compound its deepest part. The depth is the least of all directions: between spheres,
+// capsules, boxes and planes to rounding; of other convex shapes a search finds it, and may miss it.
+struct Penetration {
+    std::size_t body = 0;
+    std::uint32_t part = 0;  // as of a hit
+    float depth = 0;         // m, >= 0
+    vec3 normal{0};          // unit, from the body: moved by `depth` along it the shape (of a compound the part) only touches
 };
 
 }  // namespace scree

@@ -197,7 +197,7 @@ using VaryCopy = std::function<void(std::size_t copy, Scene& scene)>;
 class World {
 public:
     // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range and for no runner.
-    // `runner`: make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
+    // `runner`: make_reference_runner (compute/runner.h) or make_device_runner (compute/device/make_device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner);  // takes the scene, in place of copying it
     // Of a scene whose bodies come one after the other. Ranks that can share it out (compute/distributed/distributed.h) keep
@@ -430,7 +430,9 @@ public:
     // The nearest point of each; `distance` is that from the query's point, 0 in a body.
     std::vector<std::optional<QueryHit>> closest_points(std::span<const ClosestQuery> points) const;
     QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;  // all, by body and part
-    JointState joint(std::size_t index) const;                                   // throws std::out_of_range; reads all joints
+    // The same with depths and the ways out.
+    QueryLists<Penetration> penetrations(std::span<const ShapeOverlap> shapes) const;
+    JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
     std::vector<VehicleState> vehicles() const;

@@ -28,6 +28,9 @@ std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravit
 // Half of a body's thinnest width (min_half_width in shaders/physics/base/shapes.h), m.
 float least_half_width(const Shape& shape);
 
+// Of a checked hull, in the layout of shaders/physics/collide/shape_data.h.
+std::vector<physics::uvec4> hull_records(const Hull& hull);
+
 // Whether a body or one of its parts has a collision filter.
 bool has_filter(const Body& body);
 

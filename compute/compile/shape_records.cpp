@@ -45,7 +45,26 @@ std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle)
     for (const vec3& limit : triangle.limits) records.push_back(record_of(limit, 0));
     return records;
 }
-// In the layout of shaders/physics/collide/shape_data.h.
+physics::uint flags_of(Role role) {
+    if (role == Role::solid) return 0;
+    return role == Role::sensor ? physics::ROW_APART | physics::ROW_SENSOR : physics::ROW_APART;
+}
+
+// Size of a body of which only parts collide, as for SHAPE_NONE.
+vec3 size_of_whole(const Shape& shape) {
+    if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
+    vec3 size(1e30f, 0, 0);
+    for (const Part& part : std::get<Compound>(shape).parts) {
+        const physics::BodyProperties form = simple_form(part.shape);
+        if (part.role == Role::solid) size.x = std::min(size.x, physics::min_half_width(form));
+        size.y = std::max(size.y, glm::length(part.position) + physics::bounding_radius(form));
+    }
+    if (size.x == 1e30f) size.x = 1;  // nothing that collides
+    return size;
+}
+
+}  // namespace
+
 std::vector<physics::uvec4> hull_records(const Hull& hull) {
     const HullForm& form = *hull.form;
     const HullCells cells = hull_cells(form);
@@ -70,26 +89,6 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
     }
     return records;
 }
-
-physics::uint flags_of(Role role) {
-    if (role == Role::solid) return 0;
-    return role == Role::sensor ? physics::ROW_APART | physics::ROW_SENSOR : physics::ROW_APART;
-}
-
-// Size of a body of which only parts collide, as for SHAPE_NONE.
-vec3 size_of_whole(const Shape& shape) {
-    if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
-    vec3 size(1e30f, 0, 0);
-    for (const Part& part : std::get<Compound>(shape).parts) {
-        const physics::BodyProperties form = simple_form(part.shape);
-        if (part.role == Role::solid) size.x = std::min(size.x, physics::min_half_width(form));
-        size.y = std::max(size.y, glm::length(part.position) + physics::bounding_radius(form));
-    }
-    if (size.x == 1e30f) size.x = 1;  // nothing that collides
-    return size;
-}
-
-}  // namespace
 
 float least_half_width(const Shape& shape) {
     const std::optional<SimpleShape> simple = simple_shape(shape);

@@ -11,6 +11,7 @@
 #include "compute/scene/bounds_tree.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene/validator.h"
+#include "compute/world/least_depth.h"
 #include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
@@ -25,31 +26,6 @@ namespace {
 
 constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
 constexpr int most_advances = 64;
-
-void check_shape(const char* kind, std::size_t index, const SimpleShape& shape) {
-    if (std::holds_alternative<Plane>(shape) || std::holds_alternative<Hull>(shape))
-        refuse_query(kind, index, "its shape must be a sphere, capsule, box, cylinder, cone or ellipsoid");
-    std::visit(
-        [&](const auto& one) {
-            for_each_shape_field<decltype(one)>([&](const auto& field) {
-                const auto& value = one.*field.member;
-                const auto within = [&](float v) { return v >= field.range.least && v <= field.range.most; };
-                bool right = true;
-                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) right = within(value);
-                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, vec3>)
-                    right = within(value.x) && within(value.y) && within(value.z);
-                if (!right) refuse_query(kind, index, std::string(field.name) + " is out of range");
-            });
-        },
-        shape);
-}
-
-vec4 checked_turn(const char* kind, std::size_t index, vec4 q) {
-    const double squared = glm::dot(glm::dvec4(q), glm::dvec4(q));
-    if (!std::isfinite(squared) || squared < 1e-12)
-        refuse_query(kind, index, "its orientation must be finite and not of length 0");
-    return std::abs(squared - 1) <= 2.5e-7 ? q : vec4(glm::dvec4(q) / std::sqrt(squared));
-}
 
 }  // namespace
 
@@ -134,33 +110,39 @@ std::vector<QueryHit> QueryScene::all(const RayQuery& ray) const {
     return found;
 }
 
-physics::BodyProperties QueryScene::probe_of(const SimpleShape& shape) {
-    physics::BodyProperties probe{};
-    probe.shape = static_cast<physics::uint>(shape.index());
-    probe.size = record_size(shape);
-    return probe;
-}
-
-float QueryScene::gap(const Leaf& leaf, const physics::BodyProperties& probe, const physics::Pose& pose, vec3* normal) const {
+float QueryScene::gap(const Leaf& leaf, const QueryShapes::Piece& piece, physics::Hulls hulls, vec3* normal) const {
     const physics::DistanceBound bound = physics::distance_between_shapes(state_.properties[leaf.row], state_.poses[leaf.row],
-                                                                          probe, pose, 1e30f, state_.hull_table());
+                                                                          piece.form, piece.pose, 1e30f, hulls);
     if (normal) *normal = bound.normal;
     return bound.distance;
 }
 
-std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 orientation) const {
+std::vector<Penetration> QueryScene::penetrated(const ShapeOverlap& query, Pieces pieces, physics::Hulls hulls,
+                                                bool with_depths) const {
     const Bodies& in = of_[query.copy];
-    const physics::BodyProperties probe = probe_of(query.shape);
-    const physics::Pose pose{query.position, 0, orientation};
-    const vec3 half = physics::half_extents_of(probe, orientation) * 1.00001f + 1e-6f;
-    std::vector<QueryPart> found;
-    const auto offer = [&](const Leaf& leaf) {
-        if (sees(leaf, query.mask) && gap(leaf, probe, pose) <= 0) found.push_back({leaf.body, leaf.part});
-    };
-    for (const Leaf& plane : in.planes) offer(plane);
-    in.tree.for_each_overlap({query.position - half, query.position + half}, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
-    std::sort(found.begin(), found.end(),
-              [](const QueryPart& x, const QueryPart& y) { return std::tie(x.body, x.part) < std::tie(y.body, y.part); });
+    std::vector<Penetration> found;
+    for (const QueryShapes::Piece& piece : pieces) {
+        const vec3 half = physics::half_extents_of(piece.form, piece.pose.orientation) * 1.00001f + 1e-6f;
+        const auto offer = [&](const Leaf& leaf) {
+            physics::DistanceBound bound{};
+            if (!sees(leaf, query.mask)) return;
+            bound.distance = gap(leaf, piece, hulls, &bound.normal);
+            if (!(bound.distance <= 0)) return;
+            if (with_depths)
+                bound = least_depth(state_.properties[leaf.row], state_.poses[leaf.row], piece.form, piece.pose, bound, hulls);
+            found.push_back({leaf.body, leaf.part, std::max(0.0f, -bound.distance), bound.normal});
+        };
+        for (const Leaf& plane : in.planes) offer(plane);
+        in.tree.for_each_overlap({piece.pose.position - half, piece.pose.position + half},
+                                 [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
+    }
+    const auto place = [](const Penetration& one) { return std::tie(one.body, one.part); };
+    std::stable_sort(found.begin(), found.end(), [&](const Penetration& x, const Penetration& y) {
+        return place(x) < place(y) || (place(x) == place(y) && x.depth > y.depth);
+    });
+    found.erase(
+        std::unique(found.begin(), found.end(), [&](const Penetration& x, const Penetration& y) { return place(x) == place(y); }),
+        found.end());
     return found;
 }
 
@@ -168,14 +150,14 @@ std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 o
 // so first to a tenth of the reach.
 std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
     const Bodies& in = of_[query.copy];
-    physics::BodyProperties probe{};
-    probe.shape = physics::SHAPE_SPHERE;
-    const physics::Pose pose{query.point, 0, vec4(0, 0, 0, 1)};
+    QueryShapes::Piece point{};
+    point.form.shape = physics::SHAPE_SPHERE;
+    point.pose = {query.point, 0, vec4(0, 0, 0, 1)};
     std::optional<QueryHit> best;
     const auto offer = [&](const Leaf& leaf) {
         if (!sees(leaf, query.mask)) return;
         vec3 normal(0);
-        const float distance = std::max(0.0f, gap(leaf, probe, pose, &normal));
+        const float distance = std::max(0.0f, gap(leaf, point, state_.hull_table(), &normal));
         if (!(distance <= query.reach)) return;
         const QueryHit found{leaf.body, leaf.part, distance, query.point - normal * distance, normal};
         if (!best || nearer(found, *best)) best = found;
@@ -191,19 +173,20 @@ std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
 }
 
 // Conservative advancement (Mirtich 1996) along a line: the separation along a fixed axis never exceeds the distance.
-std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
-                                            vec4 orientation, float reach) const {
+std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& cast, const QueryShapes::Piece& piece,
+                                            physics::Hulls hulls, float reach) const {
     if (!sees(leaf, cast.mask)) return std::nullopt;
     float way = 0;
     vec3 normal(0);
     for (int round = 0; round < most_advances; ++round) {
-        const physics::Pose pose{cast.from + cast.along * way, 0, orientation};
-        const float distance = gap(leaf, probe, pose, &normal);
+        QueryShapes::Piece moved = piece;
+        moved.pose.position = piece.pose.position + cast.along * way;
+        const float distance = gap(leaf, moved, hulls, &normal);
         if (distance <= (round == 0 ? 0 : touching)) {
             if (round == 0) return QueryHit{leaf.body, leaf.part, 0, cast.from, -cast.along};
-            return QueryHit{leaf.body, leaf.part, way, pose.position, normal};
+            return QueryHit{leaf.body, leaf.part, way, cast.from + cast.along * way, normal};
         }
-        const float closing = -glm::dot(normal, cast.along);  // of the probe towards the body
+        const float closing = -glm::dot(normal, cast.along);  // of the piece towards the body
         if (!(closing > 1e-6f)) return std::nullopt;
         way += std::max(distance - 0.5f * touching, 0.25f * touching) / closing;
         if (!(way <= reach)) return std::nullopt;
@@ -211,20 +194,22 @@ std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& c
     return std::nullopt;
 }
 
-std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, vec4 orientation) const {
+std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, Pieces pieces, physics::Hulls hulls) const {
     const Bodies& in = of_[cast.copy];
-    const physics::BodyProperties probe = probe_of(cast.shape);
     std::optional<QueryHit> best;
     float reach = cast.reach;
-    const auto offer = [&](const Leaf& leaf) {
-        const std::optional<QueryHit> found = cast_at(leaf, cast, probe, orientation, reach);
-        if (!found || (best && !nearer(*found, *best))) return;
-        best = found;
-        reach = found->distance;
-    };
-    for (const Leaf& plane : in.planes) offer(plane);
-    in.tree.for_each_met(cast.from, cast.along, physics::half_extents_of(probe, orientation) + touching, reach,
-                         [&](std::uint32_t leaf, float) { offer(in.leaves[leaf]); });
+    for (const QueryShapes::Piece& piece : pieces) {
+        const auto offer = [&](const Leaf& leaf) {
+            const std::optional<QueryHit> found = cast_at(leaf, cast, piece, hulls, reach);
+            if (!found || (best && !nearer(*found, *best))) return;
+            best = found;
+            reach = found->distance;
+        };
+        for (const Leaf& plane : in.planes) offer(plane);
+        in.tree.for_each_met(piece.pose.position, cast.along,
+                             physics::half_extents_of(piece.form, piece.pose.orientation) + touching, reach,
+                             [&](std::uint32_t leaf, float) { offer(in.leaves[leaf]); });
+    }
     return best;
 }
 
@@ -238,19 +223,19 @@ const QueryScene& World::Impl::query_scene() const {
 }
 
 std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCast> casts) const {
-    std::vector<vec4> turns;
+    QueryShapes shapes;
     for (std::size_t i = 0; i < casts.size(); ++i) {
         const ShapeCast& cast = casts[i];
         check_copy("cast", i, cast.copy, copies());
-        check_shape("cast", i, cast.shape);
-        turns.push_back(checked_turn("cast", i, cast.orientation));
-        if (!is_finite(cast.from)) refuse_query("cast", i, "its origin must be finite");
+        shapes.add("cast", cast.shape, cast.from, cast.orientation);
         if (!is_unit(cast.along)) refuse_query("cast", i, "its direction must be of length 1");
         if (!(cast.reach >= 0 && cast.reach <= 1e6f)) refuse_query("cast", i, "its reach must be between 0 and 1000000 m");
     }
     const QueryScene& bodies = whole().query_scene();
+    shapes.join(whole().state);
     std::vector<std::optional<QueryHit>> hits(casts.size());
-    whole().runner->threads().for_each(casts.size(), [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], turns[i]); });
+    whole().runner->threads().for_each(casts.size(),
+                                       [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], shapes.of(i), shapes.hulls()); });
     return hits;
 }
 
@@ -267,19 +252,30 @@ std::vector<std::optional<QueryHit>> World::closest_points(std::span<const Close
     return found;
 }
 
-QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) const {
-    std::vector<vec4> turns;
+QueryLists<Penetration> World::Impl::penetrations(std::span<const ShapeOverlap> queries, bool with_depths) const {
+    QueryShapes shapes;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         check_copy("overlap", i, queries[i].copy, copies());
-        check_shape("overlap", i, queries[i].shape);
-        turns.push_back(checked_turn("overlap", i, queries[i].orientation));
-        if (!is_finite(queries[i].position)) refuse_query("overlap", i, "its position must be finite");
+        shapes.add("overlap", queries[i].shape, queries[i].position, queries[i].orientation);
     }
-    const QueryScene& bodies = whole().query_scene();
-    std::vector<std::vector<QueryPart>> lists(queries.size());
-    whole().runner->threads().for_each(queries.size(),
-                                       [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
+    const QueryScene& bodies = query_scene();
+    shapes.join(state);
+    std::vector<std::vector<Penetration>> lists(queries.size());
+    runner->threads().for_each(queries.size(), [&](std::size_t i) {
+        lists[i] = bodies.penetrated(queries[i], shapes.of(i), shapes.hulls(), with_depths);
+    });
     return joined_lists(std::move(lists));
+}
+
+QueryLists<Penetration> World::penetrations(std::span<const ShapeOverlap> shapes) const {
+    return whole().penetrations(shapes, true);
+}
+
+QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> shapes) const {
+    QueryLists<Penetration> found = whole().penetrations(shapes, false);
+    QueryLists<QueryPart> lists{std::move(found.starts), {}};
+    for (const Penetration& one : found.items) lists.items.push_back({one.body, one.part});
+    return lists;
 }
 
 }  // namespace scree

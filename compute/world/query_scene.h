@@ -9,6 +9,7 @@
 #include "compute/queries.h"
 #include "compute/scene/bounds_tree.h"
 #include "compute/tables/state.h"
+#include "compute/world/query_shapes.h"
 
 namespace scree {
 
@@ -22,9 +23,10 @@ public:
     // `any`: not always the nearest one.
     std::optional<QueryHit> nearest(const RayQuery& ray, bool any) const;
     std::vector<QueryHit> all(const RayQuery& ray) const;
-    std::optional<QueryHit> nearest(const ShapeCast& cast, vec4 orientation) const;
+    using Pieces = std::span<const QueryShapes::Piece>;
+    std::optional<QueryHit> nearest(const ShapeCast& cast, Pieces pieces, physics::Hulls hulls) const;
     std::optional<QueryHit> closest(const ClosestQuery& query) const;
-    std::vector<QueryPart> overlapping(const ShapeOverlap& query, vec4 orientation) const;
+    std::vector<Penetration> penetrated(const ShapeOverlap& query, Pieces pieces, physics::Hulls hulls, bool with_depths) const;
 
 private:
     struct Leaf {
@@ -33,11 +35,10 @@ private:
     bool sees(const Leaf& leaf, std::uint32_t mask) const;
     // `near`: where the ray enters the leaf's box, m.
     std::optional<QueryHit> hit(const Leaf& leaf, const RayQuery& ray, float near) const;
-    std::optional<QueryHit> cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
-                                    vec4 orientation, float reach) const;
-    // Distance of a shape from a leaf, m: at most the true one, and not positive if they overlap; normal from the leaf.
-    float gap(const Leaf& leaf, const physics::BodyProperties& probe, const physics::Pose& pose, vec3* normal = nullptr) const;
-    static physics::BodyProperties probe_of(const SimpleShape& shape);
+    std::optional<QueryHit> cast_at(const Leaf& leaf, const ShapeCast& cast, const QueryShapes::Piece& piece,
+                                    physics::Hulls hulls, float reach) const;
+    // Distance of a piece from a leaf, m: at most the true one, and not positive if they overlap; normal from the leaf.
+    float gap(const Leaf& leaf, const QueryShapes::Piece& piece, physics::Hulls hulls, vec3* normal = nullptr) const;
 
     struct Bodies {
         std::vector<Leaf> leaves, planes;

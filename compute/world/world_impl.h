@@ -86,6 +86,7 @@ struct World::Impl {
     mutable std::shared_ptr<const QueryScene> queried;
     mutable std::pair<std::uint64_t, std::uint64_t> queried_at;
     const QueryScene& query_scene() const;
+    QueryLists<Penetration> penetrations(std::span<const ShapeOverlap> queries, bool with_depths) const;
 
     // For checkpoints: what the world was made with, and the edits of the scene since, as bytes (empty: to be made).
     std::size_t bodies_at_start;

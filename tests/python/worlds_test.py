@@ -354,6 +354,58 @@ class Queries(unittest.TestCase):
         self.assertEqual(parts[starts[0]:starts[1]].body.tolist(), [ids[0]])
         self.assertEqual(starts.tolist(), [0, 1, 1])
 
+    def test_hulls_and_compounds_are_cast_and_depths_told(self):
+        scene, ids = pile(16)
+        world = scree.World(scene, backend="cpu")
+        half = .5
+        cube = scree.Hull([(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)])
+        stop = world.cast_shapes(cube, (0, 10, 0), (0, -1, 0), 20)
+        self.assertAlmostEqual(float(stop.point[0, 1]), 1.6, places=3)
+        dumbbell = scree.Compound([scree.Part(scree.Sphere(.2), position=(0, -1, 0)), scree.Part(scree.Sphere(.2), position=(0, 1, 0))])
+        stop = world.cast_shapes(dumbbell, (0, 10, 0), (0, -1, 0), 20)
+        self.assertAlmostEqual(float(stop.point[0, 1]), 2.3, places=3)
+        starts, deep = world.penetrations(scree.Sphere(.5), [(0, 1.5, 0), (0, 30, 0)])
+        self.assertEqual(starts.tolist(), [0, 1, 1])
+        self.assertEqual(deep.body.tolist(), [ids[0]])
+        self.assertAlmostEqual(float(deep.depth[0]), .1, places=4)
+        np.testing.assert_allclose(deep.normal[0], (0, 1, 0), atol=1e-5)
+        with self.assertRaisesRegex(scree.SceneError, "not a plane"):
+            world.cast_shapes(scree.Plane(), (0, 10, 0), (0, -1, 0))
+
+    def test_groups_that_are_kept_apart(self):
+        groups = scree.FilterGroups()
+        groups.separate(1, 1)
+        self.assertFalse(groups.collide(1, 1))
+        self.assertTrue(groups.collide(0, 1))
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        boxes = scene.add(scree.Box(), position=[(0, .5, 0), (0, 2, 0)], filter=groups.filter_of(1))
+        world = scree.World(scene, backend="cpu")
+        world.step(120)
+        np.testing.assert_allclose(world.position[boxes, 1], .5, atol=.02)
+        with self.assertRaises(IndexError):
+            groups.separate(0, 32)
+
+    def test_lines_and_points_to_draw(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        box = scene.add(scree.Box(), position=(0, .5, 0), color=(1, 0, 0))
+        world = scree.World(scene, backend="cpu")
+        world.step(5)  # it is awake
+        drawn = world.debug_drawing(box, contacts=False)
+        self.assertEqual(drawn.lines.shape, (12, 2, 3))
+        self.assertEqual(drawn.line_colors.tolist(), [[1, 0, 0]] * 12)
+        self.assertEqual(drawn.points.shape, (0, 3))
+        np.testing.assert_allclose(np.linalg.norm(drawn.lines[:, 1] - drawn.lines[:, 0], axis=1), 1, atol=1e-5)
+        touching = world.debug_drawing(shapes=False)
+        self.assertEqual(touching.points.shape, (4, 3))
+        self.assertEqual(touching.point_colors.shape, (4, 3))
+        self.assertEqual(world.debug_drawing(box, contacts=False, boxes=True).lines.shape, (24, 2, 3))
+        with self.assertRaisesRegex(ValueError, "segments"):
+            world.debug_drawing(segments=1)
+        with self.assertRaises(IndexError):
+            world.debug_drawing([7])
+
 
 class Views(unittest.TestCase):
     def test_views_show_the_tables_and_hold_them(self):

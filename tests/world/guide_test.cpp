@@ -107,12 +107,14 @@ TEST_CASE("guide: queries find bodies", "[guide]") {
     const std::vector<scree::ShapeOverlap> shapes{{.shape = scree::Sphere{0.2f}, .position = vec3(2, 0.5f, 0)}};
     const std::vector<scree::ClosestQuery> points{{.point = vec3(0, 1.4f, 0)}};
     const auto hits = world.cast_rays(rays);            // the nearest of each; rays_hit: whether any; cast_rays_through: all
-    const auto stops = world.cast_shapes(casts);        // a sphere, capsule, box, cylinder, cone or ellipsoid moved along a line
+    const auto stops = world.cast_shapes(casts);        // a convex shape, or a compound of them, moved along a line
     const auto lists = world.overlaps(shapes);          // lists[i]: bodies and parts that a shape overlaps
+    const auto depths = world.penetrations(shapes);     // the same with depths (m) and the ways out
     const auto nearest = world.closest_points(points);  // the nearest point of any body within a reach
     CHECK(hits[0].value().body == 1);
     CHECK(stops[0].value().body == 2);
     CHECK(lists[0][0].body == 3);
+    CHECK(depths[0][0].depth == Approx(0.6f));
     CHECK(nearest[0].value().body == 1);
 }
 

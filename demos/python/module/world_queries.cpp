@@ -1,10 +1,11 @@
-// Worlds: rays, casts and overlaps as arrays.
+// Worlds: rays, casts, overlaps and lines to draw as arrays.
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "compute/debug_drawing.h"
 #include "compute/scene_file/shapes_json.h"
 #include "demos/python/module/world_object.h"
 
@@ -21,6 +22,11 @@ struct PartRecord {
     std::int64_t body;
     std::int32_t part;
 };
+struct DepthRecord {
+    std::int64_t body;
+    std::int32_t part;
+    float depth, normal[3];
+};
 
 HitRecord query_record(const QueryHit& hit) {
     return {static_cast<std::int64_t>(hit.body),
@@ -36,6 +42,12 @@ HitRecord query_record(const std::optional<QueryHit>& hit) {
 }
 PartRecord query_record(const QueryPart& part) {
     return {static_cast<std::int64_t>(part.body), static_cast<std::int32_t>(part.part)};
+}
+DepthRecord query_record(const Penetration& one) {
+    return {static_cast<std::int64_t>(one.body),
+            static_cast<std::int32_t>(one.part),
+            one.depth,
+            {one.normal.x, one.normal.y, one.normal.z}};
 }
 
 template <class Item>
@@ -79,13 +91,13 @@ std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Flo
     return rays;
 }
 
-SimpleShape shape_of(const std::string& text) {
+Shape shape_of(const std::string& text) {
     const json_reading::Place place = root / "shape";
     Shape shape;
     json_reading::read(json_of(text), place, shape);
-    const std::optional<SimpleShape> simple = simple_shape(shape);
-    if (!simple) json_reading::refuse(place, "must be a sphere, capsule, box, cylinder, cone or ellipsoid");
-    return *simple;
+    if (std::holds_alternative<Plane>(shape) || std::holds_alternative<Mesh>(shape) || std::holds_alternative<HeightField>(shape))
+        json_reading::refuse(place, "must be convex or a compound, not a " + std::string(shape_name(shape)));
+    return shape;
 }
 
 // Reads a world without Python's lock.
@@ -128,8 +140,8 @@ py::array closest_points(WorldObject& object, const Floats& points, const Floats
     return query_records(asked(object, [&](const World& world) { return world.closest_points(queries); }));
 }
 
-py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
-                   std::uint32_t mask, const Indices& copies) {
+std::vector<ShapeOverlap> overlaps_of(const std::string& shape, const Floats& position, const Floats& orientation,
+                                      std::uint32_t mask, const Indices& copies) {
     const py::ssize_t n = position.ndim() > 0 ? position.shape(0) : 0;
     require_shape(position, n, 3, "positions");
     require_shape(orientation, n, 4, "orientation");
@@ -141,7 +153,31 @@ py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& 
         shapes[i].mask = mask;
         shapes[i].copy = copy_at(copies, i);
     }
-    return lists_of(asked(object, [&](const World& world) { return world.overlaps(shapes); }));
+    return shapes;
+}
+
+// A vector in each row of (n, 3), or two in each of (n, 2, 3).
+template <class Item>
+py::array_t<float> rows_of(const std::vector<Item>& items, std::vector<py::ssize_t> shape, vec3 Item::*first,
+                           vec3 Item::*second = nullptr) {
+    shape.insert(shape.begin(), static_cast<py::ssize_t>(items.size()));
+    py::array_t<float> made(shape);
+    float* at = made.mutable_data();
+    for (const Item& item : items)
+        for (const auto member : {first, second})
+            if (member)
+                for (int k = 0; k < 3; ++k) *at++ = (item.*member)[k];
+    return made;
+}
+
+py::tuple drawing(WorldObject& object, const std::optional<Indices>& ids, bool shapes, bool contacts, bool joints, bool boxes,
+                  int segments, float line_length, float force_length) {
+    DebugWanted wanted{shapes, contacts, joints, boxes, segments, line_length, force_length, {}};
+    if (ids) wanted.bodies.assign(ids->data(), ids->data() + ids->size());
+    const DebugDrawing made = asked(object, [&](const World& world) { return debug_drawing(world, wanted); });
+    return py::make_tuple(rows_of(made.lines, {2, 3}, &DebugLine::from, &DebugLine::to),
+                          rows_of(made.lines, {3}, &DebugLine::color), rows_of(made.points, {3}, &DebugPoint::position),
+                          rows_of(made.points, {3}, &DebugPoint::color));
 }
 
 }  // namespace
@@ -149,6 +185,7 @@ py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& 
 void bind_queries(py::module_& module, WorldClass& of_world) {
     PYBIND11_NUMPY_DTYPE(HitRecord, body, part, distance, point, normal);
     PYBIND11_NUMPY_DTYPE(PartRecord, body, part);
+    PYBIND11_NUMPY_DTYPE(DepthRecord, body, part, depth, normal);
     module.attr("hit_dtype") = py::dtype::of<HitRecord>();
     module.attr("part_dtype") = py::dtype::of<PartRecord>();
     of_world
@@ -175,7 +212,19 @@ void bind_queries(py::module_& module, WorldClass& of_world) {
              })
         .def("cast_shapes", &cast_shapes)
         .def("closest_points", &closest_points)
-        .def("overlaps", &overlaps);
+        .def("overlaps",
+             [](WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
+                std::uint32_t mask, const Indices& copies) {
+                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies);
+                 return lists_of(asked(object, [&](const World& world) { return world.overlaps(shapes); }));
+             })
+        .def("penetrations",
+             [](WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
+                std::uint32_t mask, const Indices& copies) {
+                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies);
+                 return lists_of(asked(object, [&](const World& world) { return world.penetrations(shapes); }));
+             })
+        .def("debug_drawing", &drawing);
 }
 
 }  // namespace scree::python

@@ -162,6 +162,42 @@ class Filter(_Described):
     group: int = 0
 
 
+class FilterGroups:
+    """Filters by pairs of groups, 0 to 31: all collide until they are kept apart. Bodies without a filter are of group 0.
+
+        groups = scree.FilterGroups()
+        groups.separate(DEBRIS, DEBRIS)  # pieces pass through each other
+        scene.add(scree.Box(), filter=groups.filter_of(DEBRIS))
+    """
+
+    def __init__(self) -> None:
+        self._masks = [0xFFFFFFFF] * 32
+
+    def separate(self, a: int, b: int) -> None:
+        """Groups a and b never collide, by filters made from now on."""
+        for own, other in ((self._checked(a), self._checked(b)), (b, a)):
+            self._masks[own] &= ~(1 << other)
+
+    def unite(self, a: int, b: int) -> None:
+        """Groups a and b collide again."""
+        for own, other in ((self._checked(a), self._checked(b)), (b, a)):
+            self._masks[own] |= 1 << other
+
+    def collide(self, a: int, b: int) -> bool:
+        """Whether groups a and b collide."""
+        return bool(self._masks[self._checked(a)] >> self._checked(b) & 1)
+
+    def filter_of(self, group: int) -> Filter:
+        """The filter of a body of a group."""
+        return Filter(1 << self._checked(group), self._masks[group])
+
+    @staticmethod
+    def _checked(group: int) -> int:
+        if not 0 <= group < 32:
+            raise IndexError(f"group {group} is not 0 to 31")
+        return group
+
+
 @dataclass(frozen=True)
 class Tyre(_Described):
     """Tyre friction, which depends on slip. best_slip: slip of greatest friction; sliding: friction when sliding, relative."""

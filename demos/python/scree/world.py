@@ -43,6 +43,14 @@ class EventKind(IntEnum):
     sensor_end = 8
 
 
+class DebugDrawing(typing.NamedTuple):
+    """Lines and points of a world, in m, with colours in sRGB, 0 to 1."""
+    lines: Floats  # (n, 2, 3): from and to
+    line_colors: Floats  # (n, 3)
+    points: Floats  # (m, 3)
+    point_colors: Floats  # (m, 3)
+
+
 def _fixed(array: Array) -> Array:
     """An array that is a copy, and cannot be taken for the state itself."""
     array.flags.writeable = False
@@ -589,9 +597,10 @@ class World:
 
     def cast_shapes(self, shape: Shape, origins: Any, directions: Any, reach: Any = 1.0, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                     mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
-        """The first body that a convex shape meets as it moves along each line; fields as of cast_rays, point: its centre then.
+        """The first body that a shape meets as it moves along each line; fields as of cast_rays, point: where the origin of the shape is then.
 
-        shape: no plane and no hull. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
+        shape: convex (a Hull, too) or a Compound of solid convex parts; origins: of its centre, of a Hull or Compound of the origin of
+        its points or parts. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
         """
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
@@ -606,12 +615,35 @@ class World:
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                  mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
-        """All bodies and parts that a convex shape overlaps at each position: (starts, parts), as of cast_rays_through."""
+        """All bodies and parts that a shape as of cast_shapes overlaps at each position: (starts, parts), as of cast_rays_through."""
+        starts, parts = self._native.overlaps(*self._overlaps(shape, positions, orientation, mask, copy))
+        return starts, parts.view(np.recarray)
+
+    def penetrations(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
+                     mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+        """The same with depths: (starts, depths), whose fields are body, part, depth, m, and normal (3,), from the body.
+
+        Moved by the depth along the normal the shape only touches; of a Compound its deepest part.
+        """
+        starts, depths = self._native.penetrations(*self._overlaps(shape, positions, orientation, mask, copy))
+        return starts, depths.view(np.recarray)
+
+    def _overlaps(self, shape: Shape, positions: Any, orientation: Any, mask: int, copy: Any) -> Tuple[str, Floats, Floats, int, Ids]:
         place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
-        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies"))
-        return starts, parts.view(np.recarray)
+        return json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies")
+
+    def debug_drawing(self, ids: Any = None, *, shapes: bool = True, contacts: bool = True, joints: bool = True, boxes: bool = False,
+                      segments: int = 24, line_length: float = 0.2, force_length: float = 1e-4) -> "DebugDrawing":
+        """Lines and points to draw: edges of shapes, contacts with normals and forces, joints with anchors and axes, boxes about bodies.
+
+        ids: of these bodies alone. segments: of a circle, 3 to 360; line_length: of normals and axes, m; force_length: m per N.
+        """
+        named = None if ids is None else ids_of(ids, len(self), "ids")
+        return DebugDrawing(*self._native.debug_drawing(named, bool(shapes), bool(contacts), bool(joints), bool(boxes),
+                                                        count_of(segments, "segments"), number(line_length, "line_length"),
+                                                        number(force_length, "force_length")))
 
     # ---- files
     def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1, clips: int = 0) -> "Export":
