@@ -1,4 +1,5 @@
 // Reduction of images in linear light.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
@@ -26,10 +27,12 @@ TEST_CASE("a reduced image has the mean light of its blocks", "[image]") {
 TEST_CASE("the mean of images is that of their light", "[image]") {
     for (const int bits : {8, 16}) {
         const std::size_t bytes = bits / 8;
-        const Image black{1, 1, std::vector<std::uint8_t>(4 * bytes, 0), bits},
-            white{1, 1, std::vector<std::uint8_t>(4 * bytes, 255), bits};
+        const Image white{1, 1, std::vector<std::uint8_t>(4 * bytes, 255), bits};
+        Image black = white;  // opaque
+        std::fill_n(black.rgba.begin(), static_cast<std::ptrdiff_t>(3 * bytes), std::uint8_t{0});
         MeanImage mean;
-        for (const Image* one : {&black, &white}) mean.add(*one);
+        mean.add(black);
+        mean.add(white);
         const Image half = mean.image();
         REQUIRE(half.bits == bits);
         REQUIRE(half.rgba.size() == 4 * bytes);
