@@ -110,7 +110,7 @@ DemoScene avalanche(const DemoOptions& options) {
     std::vector<vec3> seen;
     for (const float z : {-v.half_width, v.half_width}) {
         // Below the run-out there is room for legend and caption.
-        for (const vec3& point : {vec3(back - 0.1f * v.length, top, z), vec3(v.edge(), v.terrace_top(), z),
+        for (const vec3& point : {vec3(back - 0.1f * v.length, 1.1f * top, z), vec3(v.edge(), v.terrace_top(), z),
                                   vec3(1.6f * run_out, 0, z), vec3(run_out, -0.12f * v.length, z)})
             seen.push_back(point);
     }
