@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compute/scene.h"
@@ -35,6 +36,9 @@ struct ShapeCast {
     float reach = 1;                  // m, 0 to 1e6
     std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
     std::size_t copy = 0;             // likewise
+    bool solid = true;  // a body that it overlaps at the start is hit at distance 0; false: only if it moves deeper in,
+                        // by more than a thousandth of its way
+    std::size_t ignored = no_body;  // a body that it passes through: that of the character which it is cast for, say
 };
 
 // Such a shape somewhere.
@@ -43,7 +47,8 @@ struct ShapeOverlap {
     vec3 position{0};              // as `from` of a cast, m
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w of any length but 0
     std::uint32_t mask = 0xFFFFFFFF;
-    std::size_t copy = 0;  // as of a ray
+    std::size_t copy = 0;           // as of a ray
+    std::size_t ignored = no_body;  // as of a cast
 };
 
 // The point of any body that is nearest to a point.
@@ -60,7 +65,8 @@ struct QueryHit {
     float distance = 0;      // along the ray or cast, m; 0 if it begins in the body
     vec3 point{0};           // on the surface, m; of a cast where `from` has come to; of a
                              // point in the body that itself
-    vec3 normal{0};          // of the surface, unit, outward; where it begins in the body against its direction
+    vec3 normal{0};          // of the surface, unit, outward; where it begins in the body against its direction,
+                             // of a cast that is not solid that in which they come apart soonest
 };
 
 // Lists of several queries, one after the other.
@@ -68,8 +74,13 @@ template <class Item>
 struct QueryLists {
     std::vector<std::size_t> starts;  // of each list, and the end of the last
     std::vector<Item> items;
-    std::span<const Item> operator[](std::size_t query) const {
+    std::span<const Item> operator[](std::size_t query) const& {
         return std::span(items).subspan(starts[query], starts[query + 1] - starts[query]);
+    }
+    // Of lists that are about to end a copy: for (... : world.overlaps(shapes)[0]).
+    std::vector<Item> operator[](std::size_t query) && {
+        const std::span<const Item> list = std::as_const(*this)[query];
+        return {list.begin(), list.end()};
     }
 };
 

@@ -69,7 +69,7 @@ struct BodyFrame {
 };
 
 struct Body {
-    std::string name;  // for messages; may be empty
+    std::string name{};  // for messages; may be empty
     Motion motion = Motion::dynamic;
     Shape shape = Box{};
     Role role = Role::solid;  // of the shape, and of all its parts if not solid; no mesh or height field
@@ -169,7 +169,7 @@ using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, 
 constexpr std::size_t the_world = static_cast<std::size_t>(-1);  // in place of a body: the static world
 
 struct Joint {
-    std::string name;  // for messages; may be empty
+    std::string name{};  // for messages; may be empty
     JointKind kind = Ball{};
     std::size_t a = the_world, b = the_world;  // bodies; different, and at least one dynamic
     vec3 anchor_a{0}, anchor_b{0};             // in the body's frame, from its centre of mass (the world's: from its origin), m
@@ -223,7 +223,7 @@ struct WayPoint {
     float speed = 10;  // m/s, 0.1 to 1e3; interpolated linearly to the next
 };
 struct Vehicle {
-    std::string name;  // for messages; may be empty
+    std::string name{};  // for messages; may be empty
     std::size_t chassis = 0;
     std::vector<Wheel> wheels;  // 1 to 8
     Engine engine{};

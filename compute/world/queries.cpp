@@ -24,7 +24,8 @@ namespace scree {
 
 namespace {
 
-constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
+constexpr float touching = 1e-4f;     // m, at which a cast shape has arrived
+constexpr float still_apart = 1e-3f;  // of a way, by which a cast that is not solid may go deeper
 constexpr int most_advances = 64;
 
 }  // namespace
@@ -65,7 +66,8 @@ QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), 
     for (std::size_t copy = 0; copy < of_.size(); ++copy) of_[copy].tree = BoundsTree(boxes[copy]);
 }
 
-bool QueryScene::sees(const Leaf& leaf, std::uint32_t mask) const {
+bool QueryScene::sees(const Leaf& leaf, std::uint32_t mask, std::size_t ignored) const {
+    if (leaf.body == ignored) return false;
     const std::uint32_t category = state_.filters.empty() ? 1u : state_.filters[leaf.row].x;
     return (category & mask) != 0;
 }
@@ -125,7 +127,7 @@ std::vector<Penetration> QueryScene::penetrated(const ShapeOverlap& query, Piece
         const vec3 half = physics::half_extents_of(piece.form, piece.pose.orientation) * 1.00001f + 1e-6f;
         const auto offer = [&](const Leaf& leaf) {
             physics::DistanceBound bound{};
-            if (!sees(leaf, query.mask)) return;
+            if (!sees(leaf, query.mask, query.ignored)) return;
             bound.distance = gap(leaf, piece, hulls, &bound.normal);
             if (!(bound.distance <= 0)) return;
             if (with_depths)
@@ -175,9 +177,18 @@ std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
 // Conservative advancement (Mirtich 1996) along a line: the separation along a fixed axis never exceeds the distance.
 std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& cast, const QueryShapes::Piece& piece,
                                             physics::Hulls hulls, float reach) const {
-    if (!sees(leaf, cast.mask)) return std::nullopt;
+    if (!sees(leaf, cast.mask, cast.ignored)) return std::nullopt;
     float way = 0;
     vec3 normal(0);
+    if (!cast.solid) {
+        physics::DistanceBound bound{};
+        bound.distance = gap(leaf, piece, hulls, &bound.normal);
+        if (bound.distance <= touching) {
+            bound = least_depth(state_.properties[leaf.row], state_.poses[leaf.row], piece.form, piece.pose, bound, hulls);
+            if (-glm::dot(bound.normal, cast.along) <= still_apart) return std::nullopt;
+            if (bound.distance <= 0) return QueryHit{leaf.body, leaf.part, 0, cast.from, bound.normal};
+        }
+    }
     for (int round = 0; round < most_advances; ++round) {
         QueryShapes::Piece moved = piece;
         moved.pose.position = piece.pose.position + cast.along * way;

@@ -32,7 +32,7 @@ private:
     struct Leaf {
         std::uint32_t row, body, part;
     };
-    bool sees(const Leaf& leaf, std::uint32_t mask) const;
+    bool sees(const Leaf& leaf, std::uint32_t mask, std::size_t ignored = no_body) const;
     // `near`: where the ray enters the leaf's box, m.
     std::optional<QueryHit> hit(const Leaf& leaf, const RayQuery& ray, float near) const;
     std::optional<QueryHit> cast_at(const Leaf& leaf, const ShapeCast& cast, const QueryShapes::Piece& piece,

@@ -58,6 +58,9 @@ class Names(unittest.TestCase):
         self.assertEqual(world.joints().rates.shape, (4, 3, 6))
         self.assertEqual(world.drives().shape, (4, 3))
         np.testing.assert_array_equal(world.joint_ids(["joint 2", 0], copies=[1, 3]), [[5, 3], [11, 9]])
+        np.testing.assert_array_equal(world.joint_ids(np.array(["joint 2"])), world.joint_ids("joint 2"))
+        with self.assertRaisesRegex(TypeError, "takes one name, not list; of several: joint_ids"):
+            world.joint(["joint 2"])
         world.set_joint_coordinates(world.joint_ids([0, 1]), np.arange(8).reshape(4, 2) / 10, [1, 2])
         np.testing.assert_allclose(world.joints().coordinates[:, :2, TWIST], np.arange(8).reshape(4, 2) / 10, atol=1e-5)
         np.testing.assert_allclose(world.joints().rates[:, :, TWIST], [[1, 2, 0]] * 4, atol=1e-5)

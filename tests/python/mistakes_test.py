@@ -44,6 +44,14 @@ class Scenes(unittest.TestCase):
             again.add(scree.Box())
             self.assertEqual(len(scene), 3)
 
+    def test_bytes_are_no_mask(self):
+        world = scree.World(pair(), backend="cpu", copies=4)
+        with self.assertRaisesRegex(ValueError, "look like a mask, which is of bools"):
+            world.reset(np.array([0, 0, 0, 1], np.uint8))
+        world.reset(np.array([0, 0, 0, 1], bool))
+        with self.assertRaisesRegex(TypeError, "are told by whole numbers, or a mask of bools, not by names"):
+            world.reset(["lamp"])
+
     def test_a_body_has_a_mass(self):
         scene = scree.Scene()
         scene.add(scree.Box((.5, .5, .5)), position=[(0, i, 0) for i in range(3)], mass=[1, 2, 3])

@@ -371,6 +371,15 @@ class Queries(unittest.TestCase):
         np.testing.assert_allclose(deep.normal[0], (0, 1, 0), atol=1e-5)
         with self.assertRaisesRegex(scree.SceneError, "not a plane"):
             world.cast_shapes(scree.Plane(), (0, 10, 0), (0, -1, 0))
+        # Out of what it touches, and through what it ignores: one, or one for each, -1 for none.
+        touching = (0, 1.499, 0)
+        self.assertEqual(world.cast_shapes(scree.Sphere(.5), touching, (0, 1, 0)).body.tolist(), [ids[0]])
+        self.assertEqual(world.cast_shapes(scree.Sphere(.5), touching, (0, 1, 0), solid=False).body.tolist(), [-1])
+        self.assertEqual(world.cast_shapes(scree.Sphere(.5), touching, (0, -1, 0), solid=False).body.tolist(), [ids[0]])
+        both = world.cast_shapes(scree.Sphere(.5), [touching] * 2, (0, 1, 0), ignore=[-1, ids[0]])
+        self.assertEqual(both.body.tolist(), [ids[0], -1])
+        self.assertEqual(len(world.overlaps(scree.Sphere(.5), touching, ignore=ids[0])[1]), 0)
+        self.assertEqual(len(world.penetrations(scree.Sphere(.5), touching, ignore=ids[0])[1]), 0)
 
     def test_groups_that_are_kept_apart(self):
         groups = scree.FilterGroups()

@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
 
 #include "compute/scene_file/scene_schema.h"
 #include "demos/program/commands/commands.h"
@@ -13,6 +17,8 @@ namespace scree::demos {
 
 namespace {
 
+constexpr std::array<std::string_view, 8> of_other_commands = {".glb", ".gltf", ".usda", ".usd", ".png", ".exr", ".mp4", ".csv"};
+
 struct SceneExportOptions {
     SceneOptions scene;
     std::string output;
@@ -22,6 +28,11 @@ struct SceneExportOptions {
 void write_out(const SceneExportOptions& options) {
     if (options.scene.name.empty() && !options.schema)
         throw UsageError("export: name a demo (scree list), or ask for the --schema");
+    const std::string ending = std::filesystem::path(options.output).extension().string();
+    if (std::ranges::count(of_other_commands, ending) > 0)
+        throw UsageError("export: -o " + options.output +
+                         ": what is written is a scene file, NAME.json; scree run has --export NAME.glb "
+                         "or .usda for animations, and --frames for pictures");
     std::string text;
     if (options.schema) {
         text = scene_schema();

@@ -71,6 +71,13 @@ std::size_t copy_at(const Indices& copies, std::size_t i) {
 void require_copies(const Indices& copies, py::ssize_t n) {
     if (copies.size() != 1) require_shape(copies, n, 0, "copy");
 }
+// Likewise; -1 is no_body.
+std::size_t ignored_at(const Indices& ignored, std::size_t i) {
+    return static_cast<std::size_t>(ignored.data()[ignored.size() == 1 ? 0 : i]);
+}
+void require_ignored(const Indices& ignored, py::ssize_t n) {
+    if (ignored.size() != 1) require_shape(ignored, n, 0, "ignore");
+}
 
 std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
                               const Indices& copies) {
@@ -109,13 +116,15 @@ auto asked(WorldObject& object, const Query& query) {
 }
 
 py::array cast_shapes(WorldObject& object, const std::string& shape, const Floats& from, const Floats& along,
-                      const Floats& orientation, const Floats& reach, std::uint32_t mask, const Indices& copies) {
+                      const Floats& orientation, const Floats& reach, std::uint32_t mask, const Indices& copies, bool solid,
+                      const Indices& ignored) {
     const py::ssize_t n = from.ndim() > 0 ? from.shape(0) : 0;
     require_shape(from, n, 3, "origins");
     require_shape(along, n, 3, "directions");
     require_shape(orientation, n, 4, "orientation");
     require_shape(reach, n, 0, "reach");
     require_copies(copies, n);
+    require_ignored(ignored, n);
     std::vector<ShapeCast> casts(static_cast<std::size_t>(n), ShapeCast{.shape = shape_of(shape)});
     for (std::size_t i = 0; i < casts.size(); ++i) {
         casts[i].from = vec3_at(from.data(), i);
@@ -124,6 +133,8 @@ py::array cast_shapes(WorldObject& object, const std::string& shape, const Float
         casts[i].reach = reach.data()[i];
         casts[i].mask = mask;
         casts[i].copy = copy_at(copies, i);
+        casts[i].solid = solid;
+        casts[i].ignored = ignored_at(ignored, i);
     }
     return query_records(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
 }
@@ -141,17 +152,19 @@ py::array closest_points(WorldObject& object, const Floats& points, const Floats
 }
 
 std::vector<ShapeOverlap> overlaps_of(const std::string& shape, const Floats& position, const Floats& orientation,
-                                      std::uint32_t mask, const Indices& copies) {
+                                      std::uint32_t mask, const Indices& copies, const Indices& ignored) {
     const py::ssize_t n = position.ndim() > 0 ? position.shape(0) : 0;
     require_shape(position, n, 3, "positions");
     require_shape(orientation, n, 4, "orientation");
     require_copies(copies, n);
+    require_ignored(ignored, n);
     std::vector<ShapeOverlap> shapes(static_cast<std::size_t>(n), ShapeOverlap{.shape = shape_of(shape)});
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         shapes[i].position = vec3_at(position.data(), i);
         shapes[i].orientation = vec4_at(orientation.data(), i);
         shapes[i].mask = mask;
         shapes[i].copy = copy_at(copies, i);
+        shapes[i].ignored = ignored_at(ignored, i);
     }
     return shapes;
 }
@@ -214,14 +227,14 @@ void bind_queries(py::module_& module, WorldClass& of_world) {
         .def("closest_points", &closest_points)
         .def("overlaps",
              [](WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
-                std::uint32_t mask, const Indices& copies) {
-                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies);
+                std::uint32_t mask, const Indices& copies, const Indices& ignored) {
+                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies, ignored);
                  return lists_of(asked(object, [&](const World& world) { return world.overlaps(shapes); }));
              })
         .def("penetrations",
              [](WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
-                std::uint32_t mask, const Indices& copies) {
-                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies);
+                std::uint32_t mask, const Indices& copies, const Indices& ignored) {
+                 const std::vector<ShapeOverlap> shapes = overlaps_of(shape, position, orientation, mask, copies, ignored);
                  return lists_of(asked(object, [&](const World& world) { return world.penetrations(shapes); }));
              })
         .def("debug_drawing", &drawing);

@@ -123,7 +123,10 @@ def ids_of(ids: Any, count: int, of: str = "bodies") -> Ids:
     if array.size == 0:
         return np.zeros(0, dtype=np.int64)
     if not np.issubdtype(array.dtype, np.integer):
-        raise TypeError(f"ids: are whole numbers, not {array.dtype}")
+        what = "names" if array.dtype.kind == "U" else str(array.dtype)
+        raise TypeError(f"{of}: are told by whole numbers, or a mask of bools, not by {what}")
+    if array.itemsize == 1 and array.size == count > 2 and set(array.reshape(-1).tolist()) <= {0, 1}:
+        raise ValueError(f"{of}: {count} bytes of 0 and 1 look like a mask, which is of bools: .astype(bool)")
     if array.ndim > 1:
         raise ValueError(f"ids: have the shape {array.shape}, should have (n,)")
     made: Ids = np.atleast_1d(array).astype(np.int64)

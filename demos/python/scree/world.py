@@ -123,6 +123,11 @@ def _finish() -> None:
 atexit.register(_finish)
 
 
+def _are_names(joints: Any) -> bool:
+    """Whether joints are told by name: one, or a sequence in which there are names."""
+    return isinstance(joints, str) or (isinstance(joints, (list, tuple, np.ndarray)) and any(isinstance(one, str) for one in joints))
+
+
 class World:
     """A simulation of a scene.
 
@@ -596,16 +601,18 @@ class World:
         return (flat[0], unit(flat[1], "directions"), np.ascontiguousarray(far)), shape
 
     def cast_shapes(self, shape: Shape, origins: Any, directions: Any, reach: Any = 1.0, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
-                    mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
+                    mask: int = ALL_CATEGORIES, copy: Any = 0, solid: bool = True, ignore: Any = None) -> "np.recarray[Any, Any]":
         """The first body that a shape meets as it moves along each line; fields as of cast_rays, point: where the origin of the shape is then.
 
         shape: convex (a Hull, too) or a Compound of solid convex parts; origins: of its centre, of a Hull or Compound of the origin of
         its points or parts. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
+        solid: a body that the shape overlaps at the start is hit at distance 0; False: only if the shape moves deeper in, so a character
+        that stands or touches a wall moves along and away. ignore: a body that is passed through, one id, or (n,), -1 for none.
         """
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
         return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, _mask(mask),
-                                        ids_of(copy, self.copies, "copies")).view(np.recarray)
+                                        ids_of(copy, self.copies, "copies"), bool(solid), self._ignored(ignore)).view(np.recarray)
 
     def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
@@ -614,25 +621,29 @@ class World:
         return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), _mask(mask), ids_of(copy, self.copies, "copies")).view(np.recarray)
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
-                 mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+                 mask: int = ALL_CATEGORIES, copy: Any = 0, ignore: Any = None) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """All bodies and parts that a shape as of cast_shapes overlaps at each position: (starts, parts), as of cast_rays_through."""
-        starts, parts = self._native.overlaps(*self._overlaps(shape, positions, orientation, mask, copy))
+        starts, parts = self._native.overlaps(*self._overlaps(shape, positions, orientation, mask, copy, ignore))
         return starts, parts.view(np.recarray)
 
     def penetrations(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
-                     mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+                     mask: int = ALL_CATEGORIES, copy: Any = 0, ignore: Any = None) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """The same with depths: (starts, depths), whose fields are body, part, depth, m, and normal (3,), from the body.
 
         Moved by the depth along the normal the shape only touches; of a Compound its deepest part.
         """
-        starts, depths = self._native.penetrations(*self._overlaps(shape, positions, orientation, mask, copy))
+        starts, depths = self._native.penetrations(*self._overlaps(shape, positions, orientation, mask, copy, ignore))
         return starts, depths.view(np.recarray)
 
-    def _overlaps(self, shape: Shape, positions: Any, orientation: Any, mask: int, copy: Any) -> Tuple[str, Floats, Floats, int, Ids]:
+    def _ignored(self, ignore: Any) -> Ids:
+        return np.full(1, -1, dtype=np.int64) if ignore is None else ids_of(ignore, len(self), "ignore")
+
+    def _overlaps(self, shape: Shape, positions: Any, orientation: Any, mask: int, copy: Any,
+                  ignore: Any) -> Tuple[str, Floats, Floats, int, Ids, Ids]:
         place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
-        return json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies")
+        return json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies"), self._ignored(ignore)
 
     def debug_drawing(self, ids: Any = None, *, shapes: bool = True, contacts: bool = True, joints: bool = True, boxes: bool = False,
                       segments: int = 24, line_length: float = 0.2, force_length: float = 1e-4) -> "DebugDrawing":
@@ -726,7 +737,12 @@ class World:
         return self._shaped(self._native.joints()).view(np.recarray)
 
     def joint(self, name: str) -> int:
-        """The index of the first joint of that name, in its copy; raises KeyError."""
+        """The index of the first joint of that name in the scene, and so in copy 0; raises KeyError. Of all copies: joint_ids(name).
+
+        Where a joint is asked for, its name means that of every copy.
+        """
+        if not isinstance(name, str):
+            raise TypeError(f"joint: takes one name, not {type(name).__name__}; of several: joint_ids")
         names = self.joint_names
         if name in names:
             return names.index(name)
@@ -741,7 +757,7 @@ class World:
     def joint_ids(self, joints: Any = None, copies: Any = None) -> Ids:
         """(copies, k): the indices, in this world, of joints of the scene (indices or names) in copies; without arguments of all."""
         every = self._native.joint_count() // self.copies
-        if isinstance(joints, str) or (isinstance(joints, (list, tuple)) and any(isinstance(one, str) for one in joints)):
+        if _are_names(joints):
             joints = [self.joint(one) if isinstance(one, str) else one for one in ([joints] if isinstance(joints, str) else joints)]
         joint = np.arange(every) if joints is None else ids_of(joints, every, "joints")
         copy = np.arange(self.copies) if copies is None else ids_of(copies, self.copies, "copies")
@@ -753,7 +769,7 @@ class World:
 
     def _joints_of(self, joints: Any) -> Tuple[Ids, Tuple[int, ...]]:
         """Indices one after the other, and their shape."""
-        if isinstance(joints, str) or (isinstance(joints, (list, tuple)) and any(isinstance(one, str) for one in joints)):
+        if _are_names(joints):
             named = self.joint_ids(joints)
             if self._copies is None:
                 named = named[0, 0] if isinstance(joints, str) else named[0]

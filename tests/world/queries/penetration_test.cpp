@@ -272,3 +272,53 @@ TEST_CASE("shapes of queries that cannot be cast are refused by name", "[world]"
     refusal(Compound{{Part{.shape = Plane{}}}}, "part 0");
     refusal(Compound{{Part{.orientation = vec4(0)}}}, "part 0");
 }
+
+TEST_CASE("a cast that is not solid leaves what it touches, and meets what it moves into", "[world]") {
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Box{{1, 2, 4}}, .position = {2, 2, 0}});  // a wall at x = 1
+    const World world(scene, {}, 1);
+    const Capsule person{0.3f, 0.5f};
+    const auto cast = [&](vec3 from, vec3 along, bool solid) {
+        return world.cast_shapes(std::vector{ShapeCast{.shape = person, .from = from, .along = along, .solid = solid}})[0];
+    };
+    const vec3 left(-1, 0, 0), right(1, 0, 0), up(0, 1, 0), down(0, -1, 0), ahead(0, 0, 1);
+    for (const float deep : {0.0f, 1e-7f, 1e-3f, 0.02f}) {  // in the floor and the wall, m
+        CAPTURE(deep);
+        const vec3 corner(0.7f + deep, 0.8f - deep, 0.3f);
+        for (const vec3& along : {left, up, ahead, glm::normalize(left + up)}) {
+            CHECK_FALSE(cast(corner, along, false));
+            if (deep >= 1e-3f) CHECK(cast(corner, along, true));
+        }
+        const auto into_wall = cast(corner, right, false), into_floor = cast(corner, down, false);
+        REQUIRE((into_wall && into_floor));
+        CHECK(into_wall->body == 1);
+        CHECK(into_wall->distance < 2e-4f);
+        CHECK(glm::length(into_wall->normal - left) < 1e-3f);
+        CHECK(into_floor->body == 0);
+        CHECK(glm::length(into_floor->normal - up) < 1e-3f);
+    }
+    // What it meets later is met as by any other.
+    const auto far = cast({-0.1f, 0.8f - 1e-3f, 0}, right, false);
+    REQUIRE(far);
+    CHECK(far->body == 1);
+    CHECK(far->distance == Approx(0.8f).margin(2e-4));
+}
+
+TEST_CASE("casts and overlaps pass through the body that they ignore", "[world]") {
+    Scene scene;
+    for (const float x : {0.0f, 3.0f})
+        scene.bodies.push_back({.motion = Motion::fixed, .shape = Sphere{1}, .position = {x, 0, 0}});
+    const World world(scene, {}, 1);
+    ShapeCast cast{.shape = Sphere{0.5f}, .along = {1, 0, 0}, .reach = 5, .ignored = 0};
+    const auto hit = world.cast_shapes(std::vector{cast})[0];
+    REQUIRE(hit);
+    CHECK(hit->body == 1);
+    CHECK(hit->distance == Approx(1.5f).margin(2e-4));
+    ShapeOverlap overlap{.shape = Sphere{2.5f}};
+    CHECK(world.overlaps(std::vector{overlap})[0].size() == 2);
+    overlap.ignored = 1;
+    CHECK(world.overlaps(std::vector{overlap})[0].size() == 1);
+    // Lists of a result that ends with the expression are copies.
+    for (const Penetration& one : world.penetrations(std::vector{overlap})[0]) CHECK(one.body == 0);
+}
