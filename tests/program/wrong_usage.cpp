@@ -73,6 +73,7 @@ TEST_CASE("program: an unknown demo is answered with the nearest and with scree 
     require_refused(run_scree("run avalanch"), {"unknown demo \"avalanch\"", "nearest: \"avalanche\"", "scree list"});
     require_refused(run_scree("check pyramit"), {"nearest: \"pyramid\""});
     require_refused(run_scree("export nothing-like-it"), {"unknown demo", "scree list"});
+    require_refused(run_scree("export wall -o wall.glb"), {"wall.glb", "NAME.json", "--export"});
 }
 
 TEST_CASE("program: an unknown option or value is answered with what is known", "[program]") {
