@@ -24,8 +24,8 @@ namespace scree {
 
 namespace {
 
-constexpr float touching = 1e-4f;     // m, at which a cast shape has arrived
-constexpr float still_apart = 1e-3f;  // of a way, by which a cast that is not solid may go deeper
+constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
+constexpr float grazing = 1e-3f;   // slope of a way into a surface up to which a cast that is not solid slides along it
 constexpr int most_advances = 64;
 
 }  // namespace
@@ -185,7 +185,7 @@ std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& c
         bound.distance = gap(leaf, piece, hulls, &bound.normal);
         if (bound.distance <= touching) {
             bound = least_depth(state_.properties[leaf.row], state_.poses[leaf.row], piece.form, piece.pose, bound, hulls);
-            if (-glm::dot(bound.normal, cast.along) <= still_apart) return std::nullopt;
+            if (-glm::dot(bound.normal, cast.along) <= grazing) return std::nullopt;
             if (bound.distance <= 0) return QueryHit{leaf.body, leaf.part, 0, cast.from, bound.normal};
         }
     }
