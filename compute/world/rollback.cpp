@@ -11,6 +11,7 @@ namespace scree {
 
 void World::Impl::drop_kept() {
     kept.clear();
+    kept_memory.clear();
     runner->drop_kept();
 }
 
@@ -25,6 +26,12 @@ void World::keep_state() {
         in.kept.erase(replaced);
     } else {
         while (std::ranges::find(in.kept, next.slot, &Impl::Kept::slot) != in.kept.end()) ++next.slot;
+        if (!in.kept_memory.empty()) {
+            next.bytes = std::move(in.kept_memory.back());
+            in.kept_memory.pop_back();
+        } else if (!in.kept.empty()) {
+            next.bytes.reserve(in.kept.back().bytes.size());
+        }
     }
     next.steps = in.steps;
     const TableRanges ranges = lasting_ranges(in.state);
@@ -50,6 +57,7 @@ void World::roll_back(std::uint64_t steps) {
                                 ": " + (there.empty() ? "none is kept" : "those of steps " + there + " are"));
     }
     in.take(found->bytes, in.kept_by_host(), found->slot);
+    for (auto later = found + 1; later != in.kept.end(); ++later) in.kept_memory.push_back(std::move(later->bytes));
     in.kept.erase(found + 1, in.kept.end());
 }
 

@@ -259,7 +259,8 @@ struct World::Impl {
         std::size_t slot = 0;  // of the runner
         std::vector<std::byte> bytes;
     };
-    std::vector<Kept> kept;  // ascending by steps
+    std::vector<Kept> kept;                           // ascending by steps
+    std::vector<std::vector<std::byte>> kept_memory;  // of states that rollbacks left behind, for the next ones
     SteppedTables kept_by_host() const { return runner->in_place() ? SteppedTables::all : SteppedTables::on_device; }
     void drop_kept();
 };
