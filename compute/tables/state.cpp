@@ -235,8 +235,8 @@ std::pair<std::uint32_t, std::uint32_t> State::grown_capacities() const {
 
 void State::grow() {
     std::tie(fixed().pair_capacity, fixed().contact_capacity) = grown_capacities();
-    counted().overflow = 0;
     allocate();
+    counted().overflow = 0;
 }
 
 void State::shrink_contacts(std::uint32_t capacity) {

@@ -47,7 +47,7 @@ struct State : TableVectors {
     // Swaps contacts and contacts_before; called at the start of every step that is not a repetition.
     void turn_over();
 
-    // Grows the lists to what the last step required, with a reserve. Contents stay.
+    // Grows the lists to what the last step required, with a reserve. Contents stay. Throws std::bad_alloc.
     void grow();
     std::pair<std::uint32_t, std::uint32_t> grown_capacities() const;  // of pairs and of contacts
     static std::uint32_t with_reserve(std::uint64_t need);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "compute/compile/scene_compiler.h"
@@ -114,24 +115,32 @@ std::string World::Impl::most_paired_body() const {
     return "; " + (shared ? "body " + std::to_string(state.id_of(body)) : name_of_body(state.id_of(body))) + text;
 }
 
-void World::Impl::require_memory_for_lists() {
-    const std::size_t needed = state.bytes_when_grown(runner->in_place());
-    if (needed <= memory_limit) return;
+std::string World::Impl::too_long_lists(std::size_t needed) const {
     const physics::Counts& counts = state.counted();
     const bool of_pairs = (counts.overflow & physics::OVERFLOW_PAIRS) != 0;
     char text[200];
-    std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and %.3g GB are allowed",
+    std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and ",
                   static_cast<unsigned long long>(steps) + 1, of_pairs ? counts.required_pairs : counts.required_contacts,
-                  of_pairs ? "pairs of bodies that may touch" : "contacts", static_cast<double>(needed) * 1e-9,
-                  static_cast<double>(memory_limit) * 1e-9);
-    throw std::length_error(text + most_paired_body() +
-                            ". Fewer bodies or fragments, lower speeds, a higher rate or more memory would do");
+                  of_pairs ? "pairs of bodies that may touch" : "contacts", static_cast<double>(needed) * 1e-9);
+    std::string message = text;
+    if (needed > memory_limit) {
+        std::snprintf(text, sizeof text, "%.3g GB are allowed", static_cast<double>(memory_limit) * 1e-9);
+        message += text;
+    } else {
+        message += "the system gave less";
+    }
+    return message + most_paired_body() + ". Fewer bodies or fragments, lower speeds, a higher rate or more memory would do";
 }
 
 void World::Impl::make_room_for_lists() {
     const auto begin = Timeline::Clock::now();
-    require_memory_for_lists();
-    state.grow();
+    const std::size_t needed = state.bytes_when_grown(runner->in_place());
+    if (needed > memory_limit) throw std::length_error(too_long_lists(needed));
+    try {
+        state.grow();
+    } catch (const std::bad_alloc&) {
+        throw std::length_error(too_long_lists(needed));
+    }
     ++growths;
     state.fixed().redo = 1;
     runner->adapt();
