@@ -154,7 +154,7 @@ LAW RowTarget limit_target(JointAxis axis, JointRow row, uint index, bool low, b
     float room = choose(low, row.coordinate - axis.lower, axis.upper - row.coordinate);
     float bias = limit_bias(room, choose(low, row.drift, -row.drift), axis, index, biased, parameters);
     bias = choose(low, bias, -bias);
-    demand.bias = choose(biased, bias + demand.compliance * row.limit_impulse, bias);
+    demand.bias = choose(biased, bias + demand.compliance * (row.limit_impulse + (row.motor_impulse + row.motor_change)), bias);
     return demand;
 }
 

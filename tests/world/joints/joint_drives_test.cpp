@@ -92,6 +92,37 @@ TEST_CASE("a servo moves to its target, keeps what is not named, and pushes no h
     CHECK(weak.joint_axis(0, JointAxis::x).spring->rest == 100);
 }
 
+TEST_CASE("a limit holds against a servo or motor of its own joint, however strong") {
+    const float scale = GENERATE(0.01f, 1.0f, 100.0f), strength = GENERATE(10.0f, 1e3f, 1e5f);
+    const bool servo = GENERATE(true, false);
+    const Base base = GENERATE(Base::world, Base::reversed);
+    CAPTURE(scale, strength, servo, base);
+    Scene scene = arm(base, 3);
+    for (Body& body : scene.bodies) body.density = 1000 * scale;
+    const float most = strength * scale * 1000;  // N m; a link has about 32 * scale kg
+    for (std::size_t joint = 0; joint < 3; ++joint) {
+        Axis axis{.limits = Limits{-1.5f, 1.5f}};
+        if (servo)
+            axis.spring = Spring{.stiffness = most, .damping = most / 10, .rest = joint == 1 ? 9.0f : 0.0f};
+        else
+            axis.motor = Motor{joint == 1 ? 3.0f : 0.0f, most};
+        scene.joints[joint].kind = Hinge{axis};
+    }
+    World world(scene, {.sleeping = false});
+    const auto angle = [&] { return std::abs(world.joint(1).coordinates[twist]); };
+    float farthest = 0;
+    for (int i = 0; i < 180; ++i) {
+        world.step();
+        farthest = std::max(farthest, angle());
+    }
+    CHECK(angle() == Approx(1.5f).margin(2e-4));
+    CHECK(farthest < 1.51f);
+    if (!servo) return;
+    world.set_spring(1, JointAxis::twist, {.stiffness = most, .damping = most / 10});
+    world.step(60);
+    CHECK(angle() < 0.3f);  // it lets go
+}
+
 TEST_CASE("a servo's damping pulls towards its target speed, gentle and stiff") {
     for (const float damping : {8.0f, 8e5f}) {  // explicit; implicit
         World world(slider({}), {.rate = 240});
