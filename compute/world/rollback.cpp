@@ -29,8 +29,6 @@ void World::keep_state() {
         if (!in.kept_memory.empty()) {
             next.bytes = std::move(in.kept_memory.back());
             in.kept_memory.pop_back();
-        } else if (!in.kept.empty()) {
-            next.bytes.reserve(in.kept.back().bytes.size());
         }
     }
     next.steps = in.steps;

@@ -170,7 +170,7 @@ TEST_CASE("program: a step that needs more memory than is allowed or free ends t
     CHECK(checked.status == 1);
     CHECK(says(checked.errors, "is beyond memory"));
     if (scree::tests::sanitized) return;  // their shadow memory is beyond any limit
-    // Which of the two lists is the first without memory, and whether that was known before, hangs on the arenas of the threads.
+    // Threads' arenas take address space meanwhile, so either list may be the first without memory, foreseen or not.
     require_ended(run_scree(run, "ulimit -v 170000;"), "GB of tables, and ");
     require_ended(run_scree(run + " --memory 1G", "ulimit -v 170000;"), "the system gave less");
 }

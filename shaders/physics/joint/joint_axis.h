@@ -147,7 +147,8 @@ LAW float limit_bias(float room, float drift, JointAxis axis, uint index, bool b
     float ahead = room * parameters.inverse_h + choose(biased, drift, 0.0f);
     return choose(room > 0.0f, ahead, choose(biased, joint_push(room, axis, index, parameters) + drift, 0.0f));
 }
-// The equation of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
+// The equation of the lower limit if `low`, else of the upper, whose speed and impulse are negative. It yields to the net impulse
+// of the row, so that a motor or spring that presses against the stop does not push through it.
 LAW RowTarget limit_target(JointAxis axis, JointRow row, uint index, bool low, bool biased, Parameters parameters) {
     RowTarget demand;
     demand.compliance = rigid_compliance(axis, row);
