@@ -216,7 +216,7 @@ public:
     World& operator=(World&&) noexcept;
 
     // Advances by `count` steps of 1/rate seconds. Buffers grow as needed. Throws only when memory ends
-    // (std::bad_alloc, std::length_error or the device's own error): then the bodies are as after the last whole step,
+    // (std::length_error or the device's own error): then the bodies are as after the last whole step,
     // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error. Throws
     // std::invalid_argument for a count below 0.
     void step(int count = 1);

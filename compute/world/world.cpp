@@ -105,6 +105,7 @@ std::string World::Impl::most_paired_body() const {
     std::uint32_t most = 0;
     for (std::uint32_t row = 1; row < bodies; ++row)
         if (pairs_of(row) > pairs_of(most)) most = row;
+    if (pairs_of(most) == 0) return "";
     const std::uint32_t body = state.body_of(most);
     const auto speed = static_cast<double>(glm::length(state.velocities[body].linear));
     char text[160];
@@ -115,9 +116,9 @@ std::string World::Impl::most_paired_body() const {
     return "; " + (shared ? "body " + std::to_string(state.id_of(body)) : name_of_body(state.id_of(body))) + text;
 }
 
-std::string World::Impl::too_long_lists(std::size_t needed) const {
+std::string World::Impl::beyond_memory(std::size_t needed) const {
     const physics::Counts& counts = state.counted();
-    const bool of_pairs = (counts.overflow & physics::OVERFLOW_PAIRS) != 0;
+    const bool of_pairs = (counts.overflow & physics::OVERFLOW_CONTACTS) == 0;
     char text[200];
     std::snprintf(text, sizeof text, "step %llu is beyond memory: %u %s take %.3g GB of tables, and ",
                   static_cast<unsigned long long>(steps) + 1, of_pairs ? counts.required_pairs : counts.required_contacts,
@@ -135,12 +136,8 @@ std::string World::Impl::too_long_lists(std::size_t needed) const {
 void World::Impl::make_room_for_lists() {
     const auto begin = Timeline::Clock::now();
     const std::size_t needed = state.bytes_when_grown(runner->in_place());
-    if (needed > memory_limit) throw std::length_error(too_long_lists(needed));
-    try {
-        state.grow();
-    } catch (const std::bad_alloc&) {
-        throw std::length_error(too_long_lists(needed));
-    }
+    if (needed > memory_limit) throw std::length_error(beyond_memory(needed));
+    state.grow();
     ++growths;
     state.fixed().redo = 1;
     runner->adapt();
@@ -149,6 +146,16 @@ void World::Impl::make_room_for_lists() {
     const auto bytes = static_cast<double>(state.bytes());
     timeline->slice(Timeline::caller, "grow buffers", begin, Timeline::Clock::now(), {{"bytes", bytes}});
     timeline->instant("buffers grew, step is redone", begin, {{"bytes", bytes}});
+}
+
+// Calls attempt() until it has done the whole step, with longer lists after each that had no room.
+template <class Attempt>
+void World::Impl::step_with_room(const Attempt& attempt) {
+    try {
+        while (!attempt()) make_room_for_lists();
+    } catch (const std::bad_alloc&) {  // from any stage: those on the CPU have lists of their own
+        throw std::length_error(beyond_memory(state.bytes_when_grown(runner->in_place())));
+    }
 }
 
 void World::Impl::tell_timeline(Timeline::Time begin, std::uint64_t steps_before) {
@@ -183,7 +190,7 @@ void World::Impl::step() {
     parameters.redo = 0;
     const bool watched = events.settings().any();
     if (watched) events.before_step(state);
-    while (!runner->step()) make_room_for_lists();
+    step_with_room([&] { return runner->step(); });
     state.fixed().wake_all = 0;
     state.fixed().removed = 0;
     release_indices();
@@ -207,12 +214,9 @@ int World::Impl::steps_alone(int count) {
     state.fixed().redo = 0;
     const std::uint64_t before = steps;
     const auto begin = Timeline::Clock::now();
-    const bool all = runner->steps(ranks ? 1 : count, steps);
-    if (!all) {
-        do make_room_for_lists();
-        while (!runner->step());
-        ++steps;
-    }
+    int attempts = 0;
+    step_with_room([&] { return attempts++ == 0 ? runner->steps(ranks ? 1 : count, steps) : runner->step(); });
+    if (attempts > 1) ++steps;
     note_stillness();
     if (shared && state.counted().quarantined > 0) make_whole();
     if (timeline) tell_timeline(begin, before);

@@ -129,9 +129,11 @@ struct World::Impl {
     void keep_order();                                                     // between steps
     void tell_timeline(Timeline::Time begin, std::uint64_t steps_before);  // of steps that have ended
     void make_room_for_actions();
-    void make_room_for_lists();                            // and requests repetition of the step
-    std::string too_long_lists(std::size_t needed) const;  // the message; needed: bytes of tables
-    std::string most_paired_body() const;                  // for messages
+    void make_room_for_lists();  // and requests repetition of the step
+    template <class Attempt>
+    void step_with_room(const Attempt& attempt);
+    std::string beyond_memory(std::size_t needed) const;  // the message; needed: bytes of tables
+    std::string most_paired_body() const;                 // for messages
     void require_body(std::size_t body) const;  // throws std::out_of_range for an index that none has, or a removed body
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     physics::Action& change_velocity(std::size_t body, const physics::Velocity& before);  // of a kinematic body

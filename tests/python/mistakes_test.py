@@ -2,6 +2,8 @@
 import copy
 import pathlib
 import pickle
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -141,6 +143,24 @@ class Worlds(unittest.TestCase):
                                     (lambda: scree.demo("pil"), KeyError, 'nearest: "pile"'), (lambda: scree.demo("pile", bodies=-4), ValueError, "bodies: is -4")):
             with self.assertRaisesRegex(kind, what):
                 mistake()
+
+    def test_a_step_beyond_memory_raises_MemoryError(self):
+        crowd = """
+import resource
+import scree
+scene = scree.Scene()
+for _ in range(600):
+    scene.add(scree.Box((1, 1, 1)))
+world = scree.World(scene, backend="cpu", threads=1)
+taken = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (taken + 100_000_000, taken + 100_000_000))
+try:
+    world.step()
+except MemoryError as error:
+    print(error)
+"""
+        run = subprocess.run([sys.executable, "-c", crowd], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.assertRegex(run.stdout, "^step 1 is beyond memory: 179700 contacts take .* body 0 alone may touch 599 others")
 
     def test_missing_files_are_of_one_kind(self):
         for ending in ("json", "urdf", "xml", "glb", "gltf", "obj", "stl"):

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ inline py::metaclass plain_class() {
 struct Description {
     SceneDocument document;
     std::vector<std::string> notes;  // what was changed or left out in reading it
+};
+
+// Becomes MemoryError, with its words.
+struct BeyondMemory : std::runtime_error {
+    using std::runtime_error::runtime_error;
 };
 
 void bind_errors(py::module_& module);

@@ -35,6 +35,8 @@ void bind_errors(py::module_&) {
             PyErr_SetString(PyExc_OSError, error.what());
         } catch (const host::ImageError& error) {
             PyErr_SetString(PyExc_OSError, error.what());
+        } catch (const BeyondMemory& error) {
+            PyErr_SetString(PyExc_MemoryError, error.what());
         } catch (const demos::UsageError& error) {
             PyErr_SetString(PyExc_ValueError, error.what());
         }

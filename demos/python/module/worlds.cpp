@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <future>
 #include <map>
+#include <stdexcept>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -85,7 +86,11 @@ constexpr std::chrono::milliseconds hearing(50);
 
 void advance(WorldObject& object, int batch) {
     const Clock::time_point start = Clock::now();
-    object.world.step(batch);
+    try {
+        object.world.step(batch);
+    } catch (const std::length_error& error) {
+        throw BeyondMemory(error.what());
+    }
     for (const auto& file : object.exports) file->after_step(object.world);
     object.batch_seconds = seconds_since(start);
 }
