@@ -278,12 +278,10 @@ Pipeline::Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, s
                    const std::vector<std::uint32_t>& specialisation)
     : layout_(std::move(layout)) {
     const Device& device = *layout_->device();
-    const SharedPipelines::Key key = key_of(*layout_, words, specialisation);
-    made_ = device.pipelines().find(key);
-    if (made_) return;
-    made_ = std::make_shared<MadePipeline>(device.vk(), device.handle(),
-                                           make_compute_pipeline(*layout_, name, words, specialisation));
-    device.pipelines().keep(key, made_);
+    made_ = device.pipelines().get(key_of(*layout_, words, specialisation), [&] {
+        return std::make_shared<MadePipeline>(device.vk(), device.handle(),
+                                              make_compute_pipeline(*layout_, name, words, specialisation));
+    });
 }
 
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {

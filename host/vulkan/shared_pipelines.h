@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "host/vulkan/vulkan_functions.h"
 
@@ -32,19 +35,25 @@ private:
 class SharedPipelines {
 public:
     using Key = std::array<std::uint64_t, 2>;
+    using Made = std::shared_ptr<const MadePipeline>;
 
     explicit SharedPipelines(std::size_t most = 1024) : most_(most) {}
-    std::shared_ptr<const MadePipeline> find(const Key& key);  // null: none
-    void keep(const Key& key, std::shared_ptr<const MadePipeline> pipeline);
+    // The pipeline of that key, by make() if there is none. One that another thread makes is waited for. Throws what make()
+    // throws; who waited then makes it.
+    Made get(const Key& key, const std::function<Made()>& make);
     std::size_t size() const;
 
 private:
     struct Kept {
         Key key;
-        std::shared_ptr<const MadePipeline> pipeline;
+        Made pipeline;
     };
+    void keep(const Key& key, const Made& pipeline);
+
     const std::size_t most_;
     mutable std::mutex mutex_;
+    std::condition_variable ended_;  // the making of one, well or not
+    std::set<Key> in_making_;
     std::list<Kept> by_use_;  // the most recently used first
     std::map<Key, std::list<Kept>::iterator> by_key_;
 };

@@ -1,10 +1,19 @@
 // Devices, buffers, pipelines and command buffers, for every kind of buffer access, with validation.
 #include <stdlib.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cctype>
+#include <chrono>
 #include <cstring>
+#include <memory>
 #include <numeric>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "host/files/file.h"
 #include "host/spirv/spirv.h"
@@ -318,15 +327,49 @@ TEST_CASE("equal pipelines of a device are one, whoever made the first, and othe
 
 TEST_CASE("a device keeps the most recently used of its pipelines") {
     const Watched device;
-    const auto made = std::make_shared<MadePipeline>(device->vk(), device->handle(), VK_NULL_HANDLE);
     SharedPipelines pipelines(2);
-    pipelines.keep({1, 0}, made);
-    pipelines.keep({2, 0}, made);
-    CHECK(pipelines.find({1, 0}));
-    pipelines.keep({3, 0}, made);
+    const auto was_made = [&](std::uint64_t key) {
+        bool made = false;
+        pipelines.get({key, 0}, [&] {
+            made = true;
+            return std::make_shared<MadePipeline>(device->vk(), device->handle(), VK_NULL_HANDLE);
+        });
+        return made;
+    };
+    CHECK(was_made(1));
+    CHECK(was_made(2));
+    CHECK_FALSE(was_made(1));
+    CHECK(was_made(3));
     CHECK(pipelines.size() == 2);
-    CHECK(pipelines.find({1, 0}));
-    CHECK_FALSE(pipelines.find({2, 0}));
+    CHECK_FALSE(was_made(1));
+    CHECK(was_made(2));
+}
+
+TEST_CASE("a pipeline that threads ask for at once is made once, and by another thread if its maker fails") {
+    const Watched device;
+    SharedPipelines pipelines;
+    std::atomic<int> asked = 0, failed = 0, made = 0;
+    std::array<SharedPipelines::Made, 8> got;
+    std::vector<std::thread> threads;
+    for (SharedPipelines::Made& one : got)
+        threads.emplace_back([&] {
+            const auto make = [&] {
+                while (asked < 8) std::this_thread::yield();
+                if (failed++ == 0) throw std::runtime_error("no memory");
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                ++made;
+                return std::make_shared<MadePipeline>(device->vk(), device->handle(), VK_NULL_HANDLE);
+            };
+            ++asked;
+            try {
+                one = pipelines.get({1, 0}, make);
+            } catch (const std::runtime_error&) {
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(made == 1);
+    CHECK(std::count(got.begin(), got.end(), nullptr) == 1);
+    CHECK(std::set<SharedPipelines::Made>(got.begin(), got.end()).size() == 2);
 }
 
 TEST_CASE("wrong use of a table, a pipeline and a recording is refused with its reason") {
