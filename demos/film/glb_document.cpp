@@ -40,7 +40,7 @@ public:
         const auto [mesh, fresh] = meshes_.try_emplace({node.mesh, node.color}, meshes_.size());
         if (fresh)
             append(mesh_list_, fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"material":{}}}]}})",
-                                           geometry_[node.mesh][0], geometry_[node.mesh][1], node.color));
+                                           geometry_[node.mesh][0], geometry_[node.mesh][1], material_of(node.color)));
         const glm::vec4 q = node.orientation;
         append(nodes_,
                fmt::format(R"({{"name":{},"mesh":{},"translation":{},"rotation":[{},{},{},{}],"scale":{}}})", quoted(node.name),
@@ -99,24 +99,33 @@ private:
         append(animated_, fmt::format(R"({{"sampler":{},"target":{{"node":{},"path":"{}"}}}})", sampler_count_++, node_count_,
                                       channel_paths[k]));
     }
-    static std::string materials(double greatest, const std::vector<glm::vec3>& own) {
+    // The place of a colour among the materials that are used.
+    std::size_t material_of(std::size_t color) {
+        const auto [place, fresh] = material_places_.try_emplace(color, used_colors_.size());
+        if (fresh) used_colors_.push_back(color);
+        return place->second;
+    }
+    std::string materials(double greatest, const std::vector<glm::vec3>& own) const {
         std::string list;
         const auto add = [&](const std::string& name, glm::vec3 color) {
             append(list, fmt::format(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],)"
                                      R"("metallicFactor":0,"roughnessFactor":0.7}}}})",
                                      name, color.r, color.g, color.b));
         };
-        for (std::size_t k = 0; k <= glb_colors; ++k) {
-            const double place = (static_cast<double>(k) + 0.5) / glb_colors;
-            const bool fixed = k == glb_colors;
-            const glm::vec3 color =
-                fixed ? glm::vec3(0.40f, 0.385f, 0.36f) : host::map_color(host::ColorMap::ember, static_cast<float>(place));
-            add(fixed ? "fixed" : fmt::format("momentum {:.3g} kg m/s", greatest * place * place), color);
+        for (const std::size_t k : used_colors_) {
+            if (k == glb_colors) {
+                add("fixed", glm::vec3(0.40f, 0.385f, 0.36f));
+            } else if (k < glb_colors) {
+                const double place = (static_cast<double>(k) + 0.5) / glb_colors;
+                add(fmt::format("momentum {:.3g} kg m/s", greatest * place * place),
+                    host::map_color(host::ColorMap::ember, static_cast<float>(place)));
+            } else {
+                const glm::vec3 color = own[k - glb_colors - 1];
+                add(fmt::format("color #{:02x}{:02x}{:02x}", host::srgb_byte(color.r), host::srgb_byte(color.g),
+                                host::srgb_byte(color.b)),
+                    color);
+            }
         }
-        for (const glm::vec3& color : own)
-            add(fmt::format("color #{:02x}{:02x}{:02x}", host::srgb_byte(color.r), host::srgb_byte(color.g),
-                            host::srgb_byte(color.b)),
-                color);
         return list;
     }
 
@@ -125,6 +134,8 @@ private:
     std::size_t accessor_count_ = 0, sampler_count_ = 0, node_count_ = 0;
     std::vector<std::array<std::size_t, 2>> geometry_;                   // accessors of points and normals, by mesh
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes_;  // by triangles and colour
+    std::map<std::size_t, std::size_t> material_places_;                 // by colour
+    std::vector<std::size_t> used_colors_;                               // by material
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ enum GlbChannel : std::uint32_t { glb_translation, glb_rotation, glb_scale };
 constexpr std::size_t glb_channels = 3;
 // Bytes of a key's value: floats, and quaternions in normalised 16 bits (to 0.004 degrees).
 constexpr std::array<std::size_t, glb_channels> glb_value_bytes{12, 8, 12};
-// Materials: colours of momentum from none to the most; the next one is that of what does not move; then bodies' own.
+// Colours: of momentum from none to the most; the next one is that of what does not move; then bodies' own. Those that nodes
+// have are materials of the file.
 constexpr std::size_t glb_colors = 24;
 
 struct GlbNode {

@@ -264,6 +264,16 @@ TEST_CASE("program: a scene file says how it is run and shown, and options go be
     REQUIRE(says(refused.errors, "wrong.json: /events/0/action/release/joint: there is no joint 0"));
 }
 
+TEST_CASE("program: events later than the end of a run are told", "[program]") {
+    const Place place;
+    const std::string file = place.write("late.json", R"({"bodies": [{"shape": {"sphere": {"radius": 1}}}], "events": [
+        {"time": 0.1, "action": {"gravity": {"gravity": [0, 1, 0]}}}, {"time": 3, "action": {"gravity": {"gravity": [0, 2, 0]}}}]})");
+    const Outcome early = run_scree("run '" + file + "' --backend cpu --seconds 0.5");
+    REQUIRE(says(early.errors, "note: /events/1 at 3 s does not happen: the run ends at 0.5 s"));
+    REQUIRE_FALSE(says(early.errors, "/events/0"));
+    REQUIRE_FALSE(says(run_scree("run '" + file + "' --backend cpu --seconds 3.5").errors, "does not happen"));
+}
+
 TEST_CASE("program: pictures of more samples have the same size, and --samples takes squares", "[program]") {
     const std::string run = "run rest --steps 1 --fps 10 --quiet --raw - " + small;
     REQUIRE(run_scree(run + "--samples 9").output.size() == 96 * 64 * 3);

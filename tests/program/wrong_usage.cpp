@@ -78,7 +78,11 @@ TEST_CASE("program: an unknown demo is answered with the nearest and with scree 
 
 TEST_CASE("program: an unknown option or value is answered with what is known", "[program]") {
     require_refused(run_scree("run wall --backend vulcan"), {"--backend", "\"vulcan\"", "nearest: \"vulkan\"", "cpu"});
-    require_refused(run_scree("run wall --colour speed"), {"--colour", "--help"});
+    require_refused(run_scree("run wall --colour speed"), {"run: unknown option \"--colour\"", "nearest: \"--color\"", "--help"});
+    require_refused(run_scree("run pile --bodys=100"), {"unknown option \"--bodys\"", "nearest: \"--bodies\""});
+    require_refused(run_scree("compare mix --subteps 4"), {"compare: unknown option \"--subteps\"", "nearest: \"--substeps\""});
+    require_refused(run_scree("--versoin"), {"unknown option \"--versoin\"", "nearest: \"--version\""});
+    require_refused(run_scree("exprot wall"), {"unknown command \"exprot\", nearest: \"export\""});
     require_refused(run_scree("run wall --color sped"), {"--color", "speed"});
     require_refused(run_scree("run wall --size 12by9"), {"12by9", "WIDTHxHEIGHT"});
     require_refused(run_scree("run wall --size 8x8"), {"between 16 and 16384"});

@@ -1,16 +1,21 @@
 // The command line: parses it, runs a command, and maps errors to a message and an exit status.
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "demos/program/commands/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/options/help_formatter.h"
+#include "demos/program/options/option_parsing.h"
 #include "host/device_error.h"
 
 namespace scree::demos {
@@ -36,12 +41,38 @@ int tell(const std::string& message, int status = wrong_usage) {
     return status;
 }
 
+std::string hint_of(const std::string& near) {
+    return near.empty() ? "" : ", nearest: \"" + near + "\"";
+}
+
+// The first option among words that a command does not know; "" if there is none.
+std::string unknown_option(const std::vector<std::string>& words) {
+    const auto found = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-') && word != "-"; });
+    return found == words.end() ? "" : found->substr(0, found->find('='));
+}
+
+std::string nearest_option(const CLI::App& command, const std::string& option) {
+    std::vector<std::string> known;
+    for (const CLI::Option* one : command.get_options())
+        known.insert(known.end(), one->get_lnames().begin(), one->get_lnames().end());
+    const std::string near = nearest(option.substr(std::min(option.find_first_not_of('-'), option.size())), known);
+    return near.empty() ? "" : "--" + near;
+}
+
 std::string cause_of(const CLI::App& program, const CLI::ParseError& error) {
-    if (!program.get_subcommands().empty() || program.remaining_size() == 0) return error.what();
+    if (!program.get_subcommands().empty()) {
+        const CLI::App& command = *program.get_subcommands().front();
+        const std::string option = unknown_option(command.remaining());
+        if (option.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+        return fmt::format("{}: unknown option \"{}\"{}", command.get_name(), option, hint_of(nearest_option(command, option)));
+    }
+    if (program.remaining_size() == 0) return error.what();
     const std::string word = program.remaining().front();
-    std::string known;
-    for (const CLI::App* command : program.get_subcommands(nullptr)) known += (known.empty() ? "" : ", ") + command->get_name();
-    return fmt::format("unknown {} \"{}\"; the commands are {}", word.starts_with('-') ? "option" : "command", word, known);
+    if (word.starts_with('-')) return fmt::format("unknown option \"{}\"{}", word, hint_of(nearest_option(program, word)));
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return fmt::format("unknown command \"{}\"{}; the commands are {}", word, hint_of(nearest(word, names)),
+                       fmt::join(names, ", "));
 }
 
 }  // namespace

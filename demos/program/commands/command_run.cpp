@@ -371,6 +371,18 @@ void note_clamped_speeds(const LoadedScene& subject, const Settings& settings) {
         count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
 }
 
+// An event belongs to the step whose start is nearest (compute/scene_file/events.h).
+void note_late_events(const LoadedScene& subject, const SceneOptions& options) {
+    const float rate = subject.settings(options).rate;
+    const int steps = options.step_count(subject.seconds, rate);
+    for (std::size_t i = 0; i < subject.events.size(); ++i) {
+        const double time = static_cast<double>(subject.events[i].time);
+        if (std::llround(time * static_cast<double>(rate)) < steps) continue;
+        say("scree: note: /events/{} at {:g} s does not happen: the run ends at {:g} s; ask for more --seconds\n", i, time,
+            steps / static_cast<double>(rate));
+    }
+}
+
 // Takes the scene, but for outputs that need it, too: of many bodies it is as large as their tables.
 World world_of(LoadedScene& subject, const RunOptions& run, const Settings& settings, std::unique_ptr<Runner> runner,
                const VaryCopy& vary) {
@@ -421,6 +433,7 @@ int run(RunOptions options) {
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject, subject.settings(options.scene));
+    if (!options.quiet) note_late_events(subject, options.scene);
     preparing.emplace(options.timeline.get(), "make the world");
     std::unique_ptr<Runner> runner = options.exchange ? machine.make_runner(options.exchange) : machine.make_runner();
     if (!options.report.empty()) report.scene_hash = subject.others ? hash_of(subject.streamed()) : hash_of(subject.scene);
