@@ -17,8 +17,12 @@
 
 namespace scree::json_reading {
 
-// Indices by name, the first of each name.
-using Numbers = std::map<std::string, std::size_t>;
+// The index of what has a name, and that of another thing of this name.
+struct Named {
+    std::size_t index;
+    std::optional<std::size_t> namesake = std::nullopt;
+};
+using Numbers = std::map<std::string, Named>;
 struct NamedThings {
     Numbers bodies, joints;
 };
@@ -26,7 +30,8 @@ template <class Things>
 Numbers numbers_of(const Things& things) {
     Numbers numbers;
     for (std::size_t i = 0; i < things.size(); ++i)
-        if (!things[i].name.empty()) numbers.try_emplace(things[i].name, i);
+        if (!things[i].name.empty())
+            if (const auto [named, is_new] = numbers.try_emplace(things[i].name, Named{i}); !is_new) named->second.namesake = i;
     return numbers;
 }
 

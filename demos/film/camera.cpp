@@ -32,16 +32,22 @@ std::size_t body_named(const std::string& word, const Scene& scene) {
     }
     if (!number) {
         std::vector<std::string> names;
-        for (const Body& body : scene.bodies) {
-            if (body.name == word) break;
-            ++index;
-            if (!body.name.empty() && names.size() < 1000) names.push_back(body.name);
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            const std::string& name = scene.bodies[i].name;
+            if (name == word) found.push_back(i);
+            if (!name.empty() && names.size() < 1000) names.push_back(name);
         }
-        if (index == scene.bodies.size()) {
+        if (found.size() > 1) {
+            throw UsageError(
+                fmt::format("--camera follow:{}: bodies {} and {} have this name; give an index", word, found[0], found[1]));
+        }
+        if (found.empty()) {
             const std::string near = nearest(word, names);
             throw UsageError(fmt::format("--camera follow:{}: no body has this name{}; an index will do, too", word,
                                          near.empty() ? "" : ", nearest: \"" + near + "\""));
         }
+        index = found[0];
     }
     if (std::holds_alternative<Plane>(scene.bodies[index].shape)) {
         throw UsageError(fmt::format("--camera follow:{}: cannot follow a plane; choose a body that moves", word));

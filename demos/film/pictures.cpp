@@ -219,6 +219,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.bits = options.drawn_bits();
     writer.exr = options.frame_files == "exr";
     writer.alpha = options.background == "none";
+    writer.overwrite = options.overwrite;
     const host::CanvasOptions canvas = canvas_for(options, subject, world);
     if (can_be_parts(options, subject, world)) in.part = PartDrawing::make(world, canvas);
     in.make_drawing = [&in, canvas, machine, shown, word = in.part ? "gl" : options.canvas, from_host = options.shutter > 0] {

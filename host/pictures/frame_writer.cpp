@@ -13,6 +13,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <regex>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -100,13 +101,13 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-// Refuses folders with frames: a shorter run would leave the later frames of an earlier one, as if its own.
-void require_no_frames(const std::filesystem::path& folder) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with("frame_") || !(name.ends_with(".png") || name.ends_with(".exr"))) continue;
-        throw ImageError(folder.string() + ": holds frames already, such as " + name + "; name another folder, or remove them");
-    }
+// Frames and their channels, of an earlier run. A shorter one would leave the later of them, as if its own.
+std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder) {
+    static const std::regex of_frame("(frame|depth|ids|parts|normals|flow)_[0-9]{6,}\\.(png|exr|npy)");
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (std::regex_match(entry.path().filename().string(), of_frame)) found.push_back(entry.path());
+    return found;
 }
 
 // Holds a folder for one run at a time: the frames of two would mix. Where a file system has no locks it holds nothing.
@@ -178,12 +179,16 @@ struct FrameWriter::Impl {
 FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Impl>()) {
     Impl& in = *interior_;
     in.options = options;
+    std::vector<std::filesystem::path> earlier;
     if (!options.video.empty()) require_film(options.video);
     const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
     if (!options.folder.empty()) {
         require_writable_folder(options.folder);
         in.folder.take(options.folder);
-        require_no_frames(options.folder);
+        earlier = frames_in(options.folder);
+        if (!earlier.empty() && !options.overwrite)
+            throw ImageError(options.folder.string() + ": holds frames already, such as " + earlier[0].filename().string() +
+                             "; name another folder, or remove them (--overwrite does)");
     }
     if (!options.raw.empty()) {
         in.raw = std::make_unique<RawFrames>(options.raw);
@@ -202,6 +207,7 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
         };
         in.add_output(encoders(options.threads), write, {});
     }
+    for (const std::filesystem::path& frame : earlier) std::filesystem::remove(frame);
 }
 
 FrameWriter::~FrameWriter() {

@@ -22,6 +22,7 @@ struct FrameWriterOptions {
     int threads = 0;     // PNG encoders; 0: one, or two when there are more than four processors
     bool exr = false;    // frame_000000.exr instead of .png
     bool alpha = false;  // frames have alpha, by which their light is multiplied; videos and raw frames drop it
+    bool overwrite = false;  // frames and channels of an earlier run are removed from the folder, else refused
     int waiting = 6;     // queue length at which add() blocks; bounds memory
 };
 

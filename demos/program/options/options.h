@@ -64,6 +64,7 @@ struct CameraOptions {
 
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
+    bool overwrite = false;                   // frames of an earlier run in the folder are removed
     std::string cameras;                      // JSON file of each picture's camera; may be empty
     std::vector<std::string> channels;        // depth, ids, parts, normals, flow (demos/film/channels.h)
     std::string channel_files = "both";       // npy, png or both

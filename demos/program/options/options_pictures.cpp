@@ -134,6 +134,8 @@ void add_camera(CLI::App& command, CameraOptions& options) {
 void add_outputs(CLI::App& command, PictureOptions& options) {
     const char* group = "Pictures";
     command.add_option("--frames", options.frames, "Folder for frame_000000.png and so on.")->group(group);
+    command.add_flag("--overwrite", options.overwrite, "Remove frames of an earlier run from the folder; files are replaced without it.")
+        ->group(group);
     command
         .add_option(
             "--frame-files", options.frame_files,
@@ -205,6 +207,7 @@ void PictureOptions::require_sense(const CLI::App& command) const {
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
     if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
+    if (frames.empty() && overwrite) throw UsageError("--overwrite: no frames are asked for; add --frames DIR");
     if (frames.empty() && command.count("--frame-files") != 0)
         throw UsageError("--frame-files: no frames are asked for; add --frames DIR");
     if (frame_files == "exr" && command.count("--channel-files") != 0)

@@ -25,7 +25,7 @@ void choose_demo(Session& session, Interaction& interaction) {
     for (const Demo& demo : all_demos()) {
         if (demo.trial) continue;
         if (ImGui::Selectable(demo.name, name == demo.name)) interaction.open(demo.name);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", demo.line);
+        if (ImGui::IsItemHovered()) show_tooltip(demo.line);
     }
     ImGui::EndCombo();
 }
@@ -73,7 +73,7 @@ void Panel::show_timeline(Session& session, Interaction& interaction) {
     const std::string text = fmt::format("{:.2f} s", static_cast<float>(at) / rate);
     if (ImGui::SliderInt("time", &at, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) wanted_step_ = at;
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-        ImGui::SetTooltip("Drag to go back to a moment; what happens from there is a new branch.");
+        show_tooltip("Drag to go back to a moment; what happens from there is a new branch.");
     if (!wanted_step_ || ImGui::IsItemActive()) return;
     interaction.go_to(static_cast<std::uint64_t>(*wanted_step_));
     wanted_step_.reset();

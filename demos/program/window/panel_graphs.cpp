@@ -54,7 +54,7 @@ void plot_curve(const char* name, const char* unit, const std::vector<float>& ti
     const float pointed = first + (last - first) * (ImGui::GetIO().MousePos.x - left) / (right - left);
     const auto at = std::lower_bound(times.begin(), times.end(), pointed);
     const auto i = static_cast<std::size_t>(std::min<std::ptrdiff_t>(at - times.begin(), std::ssize(times) - 1));
-    ImGui::SetTooltip("%s", fmt::format("{:.2f} s: {}", times[i], with_unit(values[i], unit)).c_str());
+    show_tooltip(fmt::format("{:.2f} s: {}", times[i], with_unit(values[i], unit)));
 }
 
 }  // namespace

@@ -157,9 +157,7 @@ void Panel::show_hovered(Session& session, Interaction& interaction) {
     }
     if (!hovered_ || !has_body(world, *hovered_)) return;
     if (interaction.selected() != hovered_) show_outline(world, interaction, *hovered_, IM_COL32(255, 255, 255, 110));
-    ImGui::BeginTooltip();
-    ImGui::TextUnformatted(hovered_text_.c_str());
-    ImGui::EndTooltip();
+    show_tooltip(hovered_text_);
 }
 
 void Panel::show_marks(Session& session, Interaction& interaction) {

@@ -13,6 +13,14 @@ inline void say_line(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
+// A tooltip as large as its text; by itself it is as large as that of the picture before.
+inline void show_tooltip(const std::string& text) {
+    ImGui::SetNextWindowContentSize(ImGui::CalcTextSize(text.c_str()));
+    ImGui::BeginTooltip();
+    say_line(text);
+    ImGui::EndTooltip();
+}
+
 // Width in letters' heights, so that the panel grows with its text.
 inline float ems(float count) {
     return count * ImGui::GetFontSize();

@@ -40,6 +40,21 @@ struct BeyondMemory : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// The first two of that name.
+template <class Things>
+std::vector<std::size_t> first_named(const Things& things, std::size_t count, const std::string& name) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < count && found.size() < 2; ++i)
+        if (things[i].name == name) found.push_back(i);
+    return found;
+}
+template <class Things>
+std::vector<std::string> all_names(const Things& things, std::size_t count) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; ++i) names.push_back(things[i].name);
+    return names;
+}
+
 void bind_errors(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_worlds(py::module_& module);

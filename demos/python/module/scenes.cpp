@@ -221,16 +221,6 @@ std::vector<std::string> keys_named(const std::string& name) {
     throw py::key_error(name);
 }
 
-std::optional<std::size_t> index_by_name(const Description& scene, const std::string& list, const std::string& name) {
-    const auto find = [&](const auto& things) -> std::optional<std::size_t> {
-        for (std::size_t i = 0; i < things.size(); ++i)
-            if (things[i].name == name) return i;
-        return std::nullopt;
-    };
-    const Scene& in = scene.document.scene;
-    return list == "bodies" ? find(in.bodies) : list == "joints" ? find(in.joints) : find(in.vehicles);
-}
-
 void bind_description(py::module_& module) {
     py::class_<Description>(module, "Description", plain_class())
         .def(py::init<>())
@@ -256,7 +246,12 @@ void bind_description(py::module_& module) {
                  return add_cart(scene.document.scene, cart);
              })
         .def("set_part", &set_part)
-        .def("index_of", &index_by_name)
+        .def("indices_of",
+             [](const Description& scene, const std::string& list, const std::string& name) {
+                 const Scene& in = scene.document.scene;
+                 const auto of = [&](const auto& things) { return first_named(things, things.size(), name); };
+                 return list == "bodies" ? of(in.bodies) : list == "joints" ? of(in.joints) : of(in.vehicles);
+             })
         .def("count",
              [](const Description& scene, const std::string& list) {
                  const Scene& in = scene.document.scene;
@@ -267,15 +262,9 @@ void bind_description(py::module_& module) {
              })
         .def("names",
              [](const Description& scene, const std::string& list) {
-                 std::vector<std::string> names;
-                 const auto add = [&](const auto& things) {
-                     for (const auto& one : things) names.push_back(one.name);
-                 };
                  const Scene& in = scene.document.scene;
-                 if (list == "bodies") add(in.bodies);
-                 if (list == "joints") add(in.joints);
-                 if (list == "vehicles") add(in.vehicles);
-                 return names;
+                 const auto of = [](const auto& things) { return all_names(things, things.size()); };
+                 return list == "bodies" ? of(in.bodies) : list == "joints" ? of(in.joints) : of(in.vehicles);
              })
         .def("body_name", [](const Description& scene, std::size_t i) { return scene.document.scene.bodies.at(i).name; })
         .def("vehicle_bodies",

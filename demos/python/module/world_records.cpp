@@ -126,12 +126,16 @@ py::array drives(WorldObject& object, int axis) {
     return records_of(axes, [](const Axis& one) { return record_of(one); });
 }
 
-py::list joint_names(WorldObject& object) {
+// Of one copy.
+std::vector<std::string> names(WorldObject& object, const std::string& list) {
     Use world(object);
-    py::list names;
-    const std::vector<Joint>& joints = world->scene().joints;
-    for (std::size_t i = 0; i < joints.size() / world->copies(); ++i) names.append(joints[i].name);
-    return names;
+    const auto of = [&](const auto& things) { return all_names(things, things.size() / world->copies()); };
+    return list == "bodies" ? of(world->scene().bodies) : of(world->scene().joints);
+}
+std::vector<std::size_t> indices_by_name(WorldObject& object, const std::string& list, const std::string& name) {
+    Use world(object);
+    const auto of = [&](const auto& things) { return first_named(things, things.size() / world->copies(), name); };
+    return list == "bodies" ? of(world->scene().bodies) : of(world->scene().joints);
 }
 
 VehicleRecord record_of(const VehicleState& v) {
@@ -171,7 +175,8 @@ void bind_records(py::module_& module, WorldClass& of_world) {
     of_world.def("contacts", [](WorldObject& object) { return state_records(Use(object)->contacts()); })
         .def("joints", [](WorldObject& object) { return state_records(Use(object)->joints()); })
         .def("drives", &drives)
-        .def("joint_names", &joint_names)
+        .def("names", &names)
+        .def("indices_of", &indices_by_name)
         .def("joint_count", [](WorldObject& object) { return Use(object)->scene().joints.size(); })
         .def("vehicles", [](WorldObject& object) { return state_records(Use(object)->vehicles()); })
         .def("take_events", [](WorldObject& object) { return state_records(Use(object)->take_events()); })

@@ -2,9 +2,11 @@
 """Shaping of arrays."""
 from __future__ import annotations
 
+import difflib
 import json
 import operator
-from typing import Any, Optional, Tuple
+import typing
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -47,13 +49,57 @@ def vectors(value: Any, count: int, width: int, name: str) -> Floats:
 
 
 def floats(value: Any, name: str) -> Floats:
-    """An array of float32; TypeError for what holds no numbers."""
+    """An array of float32; TypeError for what holds no numbers, such as "5"."""
     try:
-        array: Floats = np.asarray(value, dtype=np.float32)
+        given = np.asarray(value)
+        if given.dtype.kind in "US" or given.dtype.kind == "O" and any(isinstance(one, (str, bytes)) for one in given.flat):
+            raise TypeError
+        array: Floats = given.astype(np.float32, copy=False)
     except (TypeError, ValueError):
         kind = f"{value!r}" if isinstance(value, str) else type(value).__name__
         raise TypeError(f"{name}: is made of numbers, not {kind}") from None
     return array
+
+
+def require_some(what: str, **given: Any) -> None:
+    """Refuses a call that says nothing."""
+    if all(value is None for value in given.values()):
+        raise TypeError(f"{what}: give one at least of {', '.join(given)}")
+
+
+def require_keys(given: typing.Iterable[str], known: typing.Iterable[str], what: str) -> None:
+    """Refuses unknown keyword arguments as Python does, with the nearest known one."""
+    names = list(known)
+    for key in given:
+        if key not in names:
+            near = difflib.get_close_matches(key, names, 1)
+            hint = f'; nearest: "{near[0]}"' if near else f"; known: {', '.join(names)}"
+            raise TypeError(f'{what} has no "{key}"{hint}')
+
+
+class Named(typing.Protocol):
+    """What has named bodies and joints."""
+
+    def names(self, things: str) -> List[str]: ...
+
+    def indices_of(self, things: str, name: str) -> List[int]: ...
+
+
+def index_by_name(native: Named, things: str, name: str) -> int:
+    """The index of the one of "bodies", "joints" or "vehicles" that has this name; KeyError for none, and for several."""
+    found = native.indices_of(things, name)
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise KeyError(f'"{name}" names {things} {found[0]} and {found[1]}: give an index, or each a name of its own')
+    one = {"bodies": "body", "joints": "joint", "vehicles": "vehicle"}
+    for other, how in (("joints", ".joint({})"), ("bodies", "[{}]")):
+        elsewhere = native.indices_of(other, name) if other != things else []
+        if elsewhere:
+            quoted = f'"{name}"'
+            raise KeyError(f'no {one[things]} is named "{name}", but {one[other]} {elsewhere[0]} is: {how.format(quoted)}')
+    near = difflib.get_close_matches(name, [known for known in native.names(things) if known], 1)
+    raise KeyError(f'no {one[things]} is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
 
 
 def whole(value: Any, name: str) -> int:

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from scree import _native
-from scree._arrays import Ids, count_of, floats, json_text, number, triple, vectors, whole
+from scree._arrays import Ids, count_of, floats, index_by_name, json_text, number, require_keys, triple, vectors, whole
 from scree._errors import SceneError
 from scree.camera import Camera
 from scree.joints import JointKind
@@ -20,16 +20,6 @@ from scree.shapes import HeightField, Mesh, Plane, Shape, Vector
 _VECTORS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3, "surface_velocity": 3}
 _NUMBERS = frozenset({"density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
                       "static_friction", "spinning_resistance", "restitution_threshold", "drag"})
-
-
-def require_keys(given: typing.Iterable[str], known: typing.Iterable[str], what: str) -> None:
-    """Refuses unknown keyword arguments as Python does, with the nearest known one."""
-    names = list(known)
-    for key in given:
-        if key not in names:
-            near = difflib.get_close_matches(key, names, 1)
-            hint = f'; nearest: "{near[0]}"' if near else f"; known: {', '.join(names)}"
-            raise TypeError(f'{what} has no "{key}"{hint}')
 
 
 def _count_of(columns: typing.Mapping[str, Any]) -> Optional[int]:
@@ -131,11 +121,11 @@ class Scene:
     def __contains__(self, body: object) -> bool:
         """Whether there is a body of that name, or id."""
         if isinstance(body, str):
-            return self._native.index_of("bodies", body) is not None
+            return bool(self._native.indices_of("bodies", body))
         return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
 
     def __getitem__(self, name: Union[str, int]) -> int:
-        """The id of the first body of that name, or the id itself; raises KeyError, and IndexError. joint() finds joints."""
+        """The id of the body of that name, or the id itself; raises KeyError, and IndexError. joint() finds joints."""
         if isinstance(name, str):
             return self._named("bodies", name)
         body = whole(name, "body")
@@ -152,16 +142,7 @@ class Scene:
         one = {"bodies": "body", "joints": "joint", "vehicles": "vehicle"}
         if not isinstance(name, str):
             return whole(name, one[things])
-        found = self._native.index_of(things, name)
-        if found is not None:
-            return found
-        for other in ("joints", "bodies"):
-            elsewhere = self._native.index_of(other, name) if other != things else None
-            if elsewhere is not None:
-                how = f'scene.joint("{name}")' if other == "joints" else f'scene["{name}"]'
-                raise KeyError(f'no {one[things]} is named "{name}", but {one[other]} {elsewhere} is: {how}')
-        near = difflib.get_close_matches(name, [known for known in self._native.names(things) if known], 1)
-        raise KeyError(f'no {one[things]} is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
+        return index_by_name(self._native, things, name)
 
     # ---- joints
     def add_joint(self, kind: JointKind, a: Union[int, str, None] = None, b: Union[int, str, None] = None, *,
@@ -184,7 +165,7 @@ class Scene:
         return self._native.add_joint(json_text(joint, f"/joints/{self._native.count('joints')}"))
 
     def joint(self, name: str) -> int:
-        """The index of the first joint of that name; raises KeyError."""
+        """The index of the joint of that name; raises KeyError for none, and for several."""
         return self._named("joints", name)
 
     @property

@@ -10,6 +10,8 @@ from typing import Any, Dict, List, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
+from scree._arrays import require_keys
+
 Vector = Union[typing.Sequence[float], npt.NDArray[Any]]
 
 
@@ -28,6 +30,10 @@ def _plain(value: Any) -> Any:
 
 class _Described:
     """A description whose fields are the keys of scene files."""
+
+    def __new__(cls, *values: Any, **given: Any) -> Any:
+        require_keys(given, [one.name for one in fields(cls)] if dataclasses.is_dataclass(cls) else [], f"scree.{cls.__name__}")
+        return super().__new__(cls)
 
     def to_dict(self) -> Dict[str, Any]:
         """As in a scene file; without what is left out."""

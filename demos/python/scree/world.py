@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import difflib
 import os
 import sys
 import typing
@@ -15,11 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from scree import _native, _progress
-from scree._arrays import (Floats, Ids, count_of, each, floats, ids_of, index, json_text, maybe_vectors, number, rotated, triple,
-                           turned, unit, vectors, whole)
+from scree._arrays import (Floats, Ids, count_of, each, floats, ids_of, index, index_by_name, json_text, maybe_vectors, number,
+                           require_keys, require_some, rotated, triple, turned, unit, vectors, whole)
 from scree.camera import Camera, Picture, Size
 from scree.joints import JointKind, Spring
-from scree.scene import Scene, load, require_keys
+from scree.scene import Scene, load
 from scree.shapes import Filter, Shape, Vector
 
 Array = npt.NDArray[Any]
@@ -243,6 +242,30 @@ class World:
         """The number of ids: bodies, and fragments whether they exist yet or not."""
         return self._native.count()
 
+    def __iter__(self) -> typing.Iterator[int]:
+        """The ids, of bodies that are gone, too."""
+        return iter(range(len(self)))
+
+    def __contains__(self, body: object) -> bool:
+        """Whether there is a body of that name, or id."""
+        if isinstance(body, str):
+            return bool(self._native.indices_of("bodies", body))
+        return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
+
+    def __getitem__(self, name: Union[str, int]) -> int:
+        """The id of the body of that name in the scene, and so in copy 0, or the id itself; raises KeyError, and IndexError."""
+        if isinstance(name, str):
+            return index_by_name(self._native, "bodies", name)
+        body = whole(name, "body")
+        if not 0 <= body < len(self):
+            raise IndexError(f"body {body} of {len(self)}")
+        return body
+
+    @property
+    def names(self) -> typing.List[str]:
+        """The names of the bodies of the scene, by id; "" without one."""
+        return self._native.names("bodies")
+
     def _shaped(self, column: Array) -> Array:
         return _fixed(column if self._copies is None else column.reshape(self._copies, -1, *column.shape[1:]))
 
@@ -297,7 +320,13 @@ class World:
 
     def read(self, *names: str) -> Dict[str, Array]:
         """Several of the above by name, in one transfer from a device; without names all."""
-        wanted = list(names or ("position", "orientation", "velocity", "angular_velocity", "asleep", "exists"))
+        known = ("position", "orientation", "velocity", "angular_velocity", "asleep", "exists")
+        for name in names:
+            if name not in known:
+                of_joints = name in (self._native.joints().dtype.names or ())
+                raise KeyError(f'read: no column of bodies is named "{name}"; ' + (
+                    f"joints().{name} is of joints" if of_joints else f"known: {', '.join(known)}"))
+        wanted = list(names or known)
         return {name: self._shaped(column) for name, column in self._native.columns(wanted).items()}
 
     # ---- copies of the scene
@@ -397,6 +426,7 @@ class World:
         a kinematic body changes evenly over the next step. Raises IndexError for an id or a mask of another length, ValueError for a body that is
         not there and for values out of range, and then changes nothing.
         """
+        require_some("set", position=position, orientation=orientation, velocity=velocity, angular_velocity=angular_velocity)
         named, (position, orientation, velocity, angular_velocity) = self._in_a_row(
             ids, (position, orientation, velocity, angular_velocity))
         n = len(named)
@@ -406,6 +436,7 @@ class World:
 
     def set_origin(self, ids: Any, position: Optional[Any] = None, orientation: Optional[Any] = None) -> None:
         """Places bodies as Scene.add does, and origin() tells: (n, 3) and (n, 4) of the frames in which they were described."""
+        require_some("set_origin", position=position, orientation=orientation)
         named, (position, orientation) = self._in_a_row(ids, (position, orientation))
         at, turn = (one.astype(np.float64) for one in self._native.origins(named))
         now = self._native.columns(["position", "orientation"])
@@ -424,6 +455,7 @@ class World:
 
         Each is (n, 3), or one row for all; offset, m, from the centre of mass, is where forces and impulses act. Calls add up.
         """
+        require_some("apply", force=force, torque=torque, impulse=impulse, angular_impulse=angular_impulse)
         named, (force, torque, impulse, angular_impulse, offset) = self._in_a_row(
             ids, (force, torque, impulse, angular_impulse, offset))
         n = len(named)
@@ -597,8 +629,7 @@ class World:
             raise ValueError(f"origins and directions: have the shapes {start.shape} and {along.shape}") from None
         n = int(np.prod(shape))
         flat = [np.ascontiguousarray(np.broadcast_to(one, (*shape, 3))).reshape(n, 3) for one in (start, along)]
-        far = np.broadcast_to(np.asarray(reach, dtype=np.float32), shape).reshape(n)
-        return (flat[0], unit(flat[1], "directions"), np.ascontiguousarray(far)), shape
+        return (flat[0], unit(flat[1], "directions"), typing.cast(Floats, each(reach, shape, "reach"))), shape
 
     def cast_shapes(self, shape: Shape, origins: Any, directions: Any, reach: Any = 1.0, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                     mask: int = ALL_CATEGORIES, copy: Any = 0, solid: bool = True, ignore: Any = None) -> "np.recarray[Any, Any]":
@@ -616,7 +647,7 @@ class World:
 
     def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
-        place = np.atleast_2d(np.asarray(points, dtype=np.float32))
+        place = np.atleast_2d(floats(points, "points"))
         place = vectors(place, len(place), 3, "points")
         return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), _mask(mask), ids_of(copy, self.copies, "copies")).view(np.recarray)
 
@@ -630,7 +661,8 @@ class World:
                      mask: int = ALL_CATEGORIES, copy: Any = 0, ignore: Any = None) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """The same with depths: (starts, depths), whose fields are body, part, depth, m, and normal (3,), from the body.
 
-        Moved by the depth along the normal the shape only touches; of a Compound its deepest part.
+        Moved by the depth along the normal the shape only touches, and may be told again with a depth of rounding, some 1e-7 of its
+        coordinates: compare depths with what you tolerate. Of a Compound its deepest part.
         """
         starts, depths = self._native.penetrations(*self._overlaps(shape, positions, orientation, mask, copy, ignore))
         return starts, depths.view(np.recarray)
@@ -640,7 +672,7 @@ class World:
 
     def _overlaps(self, shape: Shape, positions: Any, orientation: Any, mask: int, copy: Any,
                   ignore: Any) -> Tuple[str, Floats, Floats, int, Ids, Ids]:
-        place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
+        place = np.atleast_2d(floats(positions, "positions"))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
         return json_text(shape, "/shape"), place, turns, _mask(mask), ids_of(copy, self.copies, "copies"), self._ignored(ignore)
@@ -737,22 +769,18 @@ class World:
         return self._shaped(self._native.joints()).view(np.recarray)
 
     def joint(self, name: str) -> int:
-        """The index of the first joint of that name in the scene, and so in copy 0; raises KeyError. Of all copies: joint_ids(name).
+        """The index of the joint of that name in the scene, and so in copy 0; raises KeyError. Of all copies: joint_ids(name).
 
         Where a joint is asked for, its name means that of every copy.
         """
         if not isinstance(name, str):
             raise TypeError(f"joint: takes one name, not {type(name).__name__}; of several: joint_ids")
-        names = self.joint_names
-        if name in names:
-            return names.index(name)
-        near = difflib.get_close_matches(name, [one for one in names if one], 1)
-        raise KeyError(f'no joint is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
+        return index_by_name(self._native, "joints", name)
 
     @property
     def joint_names(self) -> typing.List[str]:
         """The names of the joints of the scene, by index; "" without one."""
-        return self._native.joint_names()
+        return self._native.names("joints")
 
     def joint_ids(self, joints: Any = None, copies: Any = None) -> Ids:
         """(copies, k): the indices, in this world, of joints of the scene (indices or names) in copies; without arguments of all."""
@@ -822,6 +850,7 @@ class World:
         Each a number for all, or an array of the shape of the joints; what is not given stays. It is the axis's spring, and takes the place
         of a motor. Units: m and N, or rad and N m. Raises SceneError for max_force or target_speed where there is friction.
         """
+        require_some("set_drive", stiffness=stiffness, damping=damping, target=target, target_speed=target_speed, max_force=max_force)
         named, shape = self._joints_of(joints)
         self._native.set_drives(named, self._axis_name(axis), each(stiffness, shape, "stiffness"), each(damping, shape, "damping"),
                                 each(target, shape, "target"), each(target_speed, shape, "target_speed"),
@@ -844,6 +873,7 @@ class World:
         which stays: the world, what is not dynamic, else the one body that is b of no joint. Raises ValueError for joints in a loop, and
         for what is out of a joint's limits, and then changes nothing.
         """
+        require_some("set_joint_coordinates", coordinate=coordinate, rate=rate)
         named, shape = self._joints_of(joints)
         self._native.set_joint_coordinates(named, self._axis_name(axis), each(coordinate, shape, "coordinate"),
                                            each(rate, shape, "rate"))
