@@ -76,6 +76,9 @@ void read_field(const json& object, const Place& place, const schema::Field<Stru
             return;
         }
     }
+    if constexpr (std::is_same_v<Member, std::optional<glm::vec3>>) {
+        if (field.is_color) return read_color(*found, place / field.key, member.emplace());
+    }
     read_value(*found, place / field.key, member, field.unit, named);
 }
 

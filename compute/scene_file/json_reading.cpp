@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "compute/scene_file/hex_color.h"
 
 namespace scree::json_reading {
 
@@ -113,6 +116,17 @@ void read(const json& value, const Place& place, std::int32_t& out) {
                                                                                                : value.get<std::int64_t>();
     if (number > 0x7FFFFFFF || number < -0x7FFFFFFF) refuse(place, "must be within 2147483647 of 0, is " + kind(value));
     out = static_cast<std::int32_t>(number);
+}
+
+void read_color(const json& value, const Place& place, glm::vec3& out) {
+    if (value.is_array() && value.size() == 3) return read(value, place, out);
+    const auto known = value.is_string() ? color_of_hex(value.get_ref<const std::string&>()) : std::nullopt;
+    if (!known)
+        refuse(place,
+               "must be an array of 3 numbers from 0 to 1 (red, green, blue in sRGB), or hexadecimal digits as in "
+               "\"#ff8000\" or \"#f80\"; is " +
+                   kind(value));
+    out = *known;
 }
 
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place) {

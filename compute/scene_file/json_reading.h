@@ -42,6 +42,8 @@ void read(const json& value, const Place& place, std::string& out);
 void read(const json& value, const Place& place, std::size_t& out);
 void read(const json& value, const Place& place, std::uint32_t& out);
 void read(const json& value, const Place& place, std::int32_t& out);
+// Red, green, blue in sRGB, as numbers or "#rrggbb" or "#rgb".
+void read_color(const json& value, const Place& place, glm::vec3& out);
 // Index of a known word; `what` names the kind of word in messages.
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place);
 Body body_of(const json& value, const Place& place);  // as in a scene file

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compute/scene_file/document_fields.h"
+#include "compute/scene_file/hex_color.h"
 #include "compute/scene_file/shapes_json.h"
 #include "compute/schema/check.h"
 
@@ -171,6 +172,10 @@ private:
                         field.presence == schema::Presence::required,
                         type_of<Member>(field.range, field.refers),
                         nullptr};
+            if (field.is_color) {
+                const ordered_json hex = {{"type", "string"}, {"pattern", hex_color_pattern}};
+                entry.schema = {{"anyOf", ordered_json::array({entry.schema, hex})}};
+            }
             const Member& usual = by_default.*field.member;
             if constexpr (Number<Member>) {
                 if (field.refers == Refers::to_nothing && field.range.holds(usual)) entry.usual = number(usual);

@@ -129,7 +129,8 @@ inline constexpr auto table<Body> = std::apply(
             field("user_data", &Body::user_data, between(0, 18446744073709551615.0), "",
                   "A number of the user's own; no result depends on it"),
             field("color", &Body::color, between(0, 1), "",
-                  "Colour in pictures by \"own\": red, green, blue in sRGB; left out: a light grey"),
+                  "Colour in pictures by \"own\": red, green, blue in sRGB, or \"#rrggbb\" or \"#rgb\"; left out: a light grey")
+                .of_color(),
             field("filter", &Body::filter, "Which bodies it collides with; left out: all"),
             field("tyre", &Body::tyre,
                   "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),

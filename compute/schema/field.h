@@ -63,6 +63,7 @@ struct Field {
     Presence presence = Presence::optional;
     Refers refers = Refers::to_nothing;
     bool by_length = false;  // of a vector that validation turns: the range is that of its length, not of its components
+    bool is_color = false;   // in sRGB; scene files may say "#rrggbb" or "#rgb" instead
 
     constexpr bool embedded() const { return *key == '\0'; }
     constexpr Field required() const { return with(Presence::required); }
@@ -70,6 +71,11 @@ struct Field {
     constexpr Field of_length() const {
         Field field = *this;
         field.by_length = true;
+        return field;
+    }
+    constexpr Field of_color() const {
+        Field field = *this;
+        field.is_color = true;
         return field;
     }
     constexpr Field index_of(Refers what) const {

@@ -448,8 +448,11 @@ TEST_CASE("program: bodies with colours are shown in them, unless another quanti
     CHECK(shown != by_momentum);
     CHECK(picture_of(asked + rest) == by_momentum);
     CHECK(picture_of(red + " --color momentum" + rest) == by_momentum);
+    CHECK(shown == picture_of(place.write("hex.json", scene(R"(, "color": "#F00")", "")) + rest));
     const std::string wrong = place.write("wrong.json", scene(R"(, "color": [1, 0, 2])", ""));
     require_refused(wrong + " --steps 1", {"/bodies/0/color/2", "between 0 and 1"});
+    const std::string word = place.write("word.json", scene(R"(, "color": "red")", ""));
+    require_refused(word + " --steps 1", {"/bodies/0/color", "\"#ff8000\" or \"#f80\"", "is the string \"red\""});
 }
 
 TEST_CASE("program: one moment or a range of them is drawn, and the run ends there", "[program]") {

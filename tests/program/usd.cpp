@@ -104,7 +104,7 @@ TEST_CASE("program: animations have the colours of bodies that have some") {
     const Place place;
     const std::string ball = R"({"shape": {"sphere": {"radius": 0.5}}, "position": )";
     const std::string scene = place.write("scene.json", R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}},)" + ball +
-                                                            R"([0, 5, 0], "color": [1, 0, 0.7353569]},)" + ball + "[0, 9, 0]}]}");
+                                                            R"([0, 5, 0], "color": "#ff00bc"},)" + ball + "[0, 9, 0]}]}");
     for (const std::string name : {"run.usda", "run.glb"}) {
         const Outcome run = run_scree("run " + scene + " --backend cpu --steps 2 --quiet --export " + (place / name).string());
         INFO(run.errors);

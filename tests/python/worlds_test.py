@@ -398,7 +398,9 @@ class Queries(unittest.TestCase):
     def test_lines_and_points_to_draw(self):
         scene = scree.Scene()
         scene.add(scree.Plane())
-        box = scene.add(scree.Box(), position=(0, .5, 0), color=(1, 0, 0))
+        box = scene.add(scree.Box(), position=(0, .5, 0), color="#f00")
+        with self.assertRaisesRegex(scree.SceneError, '/bodies/2/color: .*"#ff8000" or "#f80"; is the string "red"'):
+            scene.add(scree.Box(), color="red")
         world = scree.World(scene, backend="cpu")
         world.step(5)  # it is awake
         drawn = world.debug_drawing(box, contacts=False)

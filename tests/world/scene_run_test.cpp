@@ -90,6 +90,28 @@ TEST_CASE("scene file: settings, duration, camera motion, picture and events are
     CHECK(scene_to_json(scene_from_json(scene_with(""))).find("settings") == std::string::npos);
 }
 
+TEST_CASE("scene file: a colour is numbers or hexadecimal digits, and is written as numbers", "[scene]") {
+    const auto with = [](const std::string& color) {
+        return R"({"bodies": [{"shape": {"sphere": {"radius": 0.5}}, "color": )" + color + "}]}";
+    };
+    const auto color = [&](const std::string& text) { return scene_from_json(with(text)).scene.bodies.at(0).color.value(); };
+    CHECK(color("\"#ff8000\"") == glm::vec3(1, 128 / 255.0f, 0));
+    CHECK(color("\"#fA0\"") == color("\"#ffAA00\""));
+    CHECK(color("[1, 0.5, 0]") == glm::vec3(1, 0.5f, 0));
+    const SceneDocument document = scene_from_json(with("\"#30f\""));
+    CHECK(nlohmann::json::parse(scene_to_json(document)).at("bodies").at(0).at("color") == nlohmann::json({0.2, 0, 1}));
+    CHECK(scene_from_json(scene_to_json(document)).scene.bodies.at(0).color == document.scene.bodies.at(0).color);
+    for (const std::string wrong : {"\"red\"", "\"#ff80\"", "\"#gg0000\"", "\"ff8000\"", "\"#-1-1-1\"", "\"#ff80000\"", "\"\"",
+                                    "[1, 0]", "0.5", "null", "{}"}) {
+        INFO(wrong);
+        CHECK_THROWS_WITH(color(wrong), Catch::StartsWith("/bodies/0/color: must be an array of 3 numbers from 0 to 1") &&
+                                            Catch::Contains("\"#ff8000\" or \"#f80\"; is "));
+    }
+    const auto schema = nlohmann::json::parse(scene_schema()).at("$defs").at("body").at("properties").at("color");
+    CHECK(schema.at("anyOf").at(0).at("minItems") == 3);
+    CHECK(schema.at("anyOf").at(1).at("type") == "string");
+}
+
 TEST_CASE("scene file: settings, pictures and events that cannot be are refused with their place", "[scene]") {
     CHECK(refusal(R"("settings": {"substeps": 0})") == "/settings/substeps: must be between 1 and 64, is 0");
     CHECK(refusal(R"("settings": {"substep": 9})")
