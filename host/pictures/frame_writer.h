@@ -16,14 +16,14 @@ struct FrameWriterOptions {
     std::filesystem::path preview{};  // small animated .gif or .webp; empty: none
     std::filesystem::path raw{};      // raw frames (host/pictures/raw_frames.h): a file, a pipe or "-"; empty: none
     double frames_per_second = 60;
-    int width = 1280;    // pixels
-    int height = 720;    // pixels
-    int bits = 8;        // per channel, 8 or 16
-    int threads = 0;     // PNG encoders; 0: one, or two when there are more than four processors
-    bool exr = false;    // frame_000000.exr instead of .png
-    bool alpha = false;  // frames have alpha, by which their light is multiplied; videos and raw frames drop it
+    int width = 1280;        // pixels
+    int height = 720;        // pixels
+    int bits = 8;            // per channel, 8 or 16
+    int threads = 0;         // PNG encoders; 0: one, or two when there are more than four processors
+    bool exr = false;        // frame_000000.exr instead of .png
+    bool alpha = false;      // frames have alpha, by which their light is multiplied; videos and raw frames drop it
     bool overwrite = false;  // frames and channels of an earlier run are removed from the folder, else refused
-    int waiting = 6;     // queue length at which add() blocks; bounds memory
+    int waiting = 6;         // queue length at which add() blocks; bounds memory
 };
 
 class FrameWriter {

@@ -70,6 +70,24 @@ TEST_CASE("program: the lines for data sets of help and guide work in an empty f
     REQUIRE(std::filesystem::is_empty(place.path()));
 }
 
+TEST_CASE("program: frames of an earlier run are in the way, or replaced by --overwrite", "[program]") {
+    const Place place;
+    const std::string there = "cd '" + place.path().string() + "' &&";
+    const std::string frames = "run rest " + small + "--fps 60 --frames out --overwrite ";
+    REQUIRE(run_scree(frames + "--steps 4 --channels depth", there).status == 0);
+    place.write("out/frame_notes.txt", "mine");
+    const Outcome refused = run_scree("run rest " + small + "--fps 60 --frames out --steps 1", there);
+    REQUIRE(refused.status == 2);
+    REQUIRE(says(refused.errors, "--overwrite"));
+    REQUIRE(std::filesystem::exists(place / "out/frame_000003.png"));
+    REQUIRE(run_scree(frames + "--steps 1", there).status == 0);
+    REQUIRE(std::filesystem::exists(place / "out/frame_000001.png"));
+    for (const char* left : {"out/frame_000003.png", "out/depth_000000.npy"})
+        REQUIRE_FALSE(std::filesystem::exists(place / left));
+    REQUIRE(std::filesystem::exists(place / "out/frame_notes.txt"));
+    REQUIRE(run_scree("run rest --steps 1 --overwrite").status == 2);
+}
+
 TEST_CASE("program: raw frames go to the standard output, and words elsewhere", "[program]") {
     const Outcome raw = run_scree("run rest " + small + "--steps 2 --fps 60 --raw -");
     INFO(raw.errors);

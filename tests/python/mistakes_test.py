@@ -162,6 +162,43 @@ except MemoryError as error:
         run = subprocess.run([sys.executable, "-c", crowd], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertRegex(run.stdout, "^step 1 is beyond memory: 179700 contacts take .* body 0 alone may touch 599 others")
 
+    def test_what_says_nothing_or_no_number_is_refused(self):
+        scene = pair()
+        world = scree.World(scene, backend="cpu", threads=1)
+        for mistake, what in ((lambda: world.apply(1, force=(0, "5", 0)), "force: is made of numbers"),
+                              (lambda: world.apply(1, force=np.array([0, "5", 0], dtype=object)), "force: is made of numbers"),
+                              (lambda: world.cast_rays((0, 9, 0), (0, -1, 0), "5"), "reach: is made of numbers"),
+                              (lambda: world.closest_points(("0", "1", "0")), "points: is made of numbers"),
+                              (lambda: world.set_joint_coordinates([]), "give one at least of coordinate, rate"),
+                              (lambda: world.set_drive([]), "give one at least of stiffness"),
+                              (lambda: world.set(1), "give one at least of position"),
+                              (lambda: world.set_origin(1), "give one at least of position"),
+                              (lambda: world.apply(1, offset=(0, 1, 0)), "give one at least of force"),
+                              (lambda: scree.Hinge(limit=(0, 1)), 'scree.Hinge has no "limit"; nearest: "limits"'),
+                              (lambda: scree.Box(half_extent=(1, 1, 1)), 'nearest: "half_extents"'),
+                              (lambda: scree.Fixed(limits=(0, 1)), 'scree.Fixed has no "limits"')):
+            with self.assertRaisesRegex(TypeError, what):
+                mistake()
+        with self.assertRaisesRegex(KeyError, r"coordinates.*joints\(\).coordinates is of joints"):
+            world.read("coordinates")
+        with self.assertRaisesRegex(KeyError, "known: position"):
+            world.read("positions")
+        self.assertEqual(copy.deepcopy(scree.Hinge(limits=(0, 1))), pickle.loads(pickle.dumps(scree.Hinge((0, 1)))))
+
+    def test_names_are_of_one(self):
+        scene = pair()
+        scene.add_joint(scree.Ball(), "lamp", anchor=(0, 3, 0), name="chain")
+        world = scree.World(scene, backend="cpu", copies=2)
+        self.assertEqual((world["lamp"], world[3], world.names, list(world)), (1, 3, ["", "lamp"], [0, 1, 2, 3]))
+        self.assertTrue("lamp" in world and 3 in world and "lmap" not in world and 4 not in world)
+        for wrong, kind, what in (("lmap", KeyError, 'nearest: "lamp"'), ("chain", KeyError, r'joint 0 is: .joint\("chain"'), (4, IndexError, "4 of 4")):
+            with self.assertRaisesRegex(kind, what):
+                world[wrong]
+        scene.add(scree.Sphere(), position=(3, 2, 0), name="lamp")
+        for find in (lambda: scene["lamp"], lambda: scree.World(scene, backend="cpu")["lamp"], lambda: scene.add_joint(scree.Ball(), "lamp", 0)):
+            with self.assertRaisesRegex(KeyError, '"lamp" names bodies 1 and 2'):
+                find()
+
     def test_missing_files_are_of_one_kind(self):
         for ending in ("json", "urdf", "xml", "glb", "gltf", "obj", "stl"):
             with self.assertRaises(FileNotFoundError):

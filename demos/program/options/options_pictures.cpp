@@ -134,7 +134,9 @@ void add_camera(CLI::App& command, CameraOptions& options) {
 void add_outputs(CLI::App& command, PictureOptions& options) {
     const char* group = "Pictures";
     command.add_option("--frames", options.frames, "Folder for frame_000000.png and so on.")->group(group);
-    command.add_flag("--overwrite", options.overwrite, "Remove frames of an earlier run from the folder; files are replaced without it.")
+    command
+        .add_flag("--overwrite", options.overwrite,
+                  "Remove frames of an earlier run from the folder; files are replaced without it.")
         ->group(group);
     command
         .add_option(

@@ -10,6 +10,7 @@
 #include "compute/scene/shape_geometry.h"
 #include "demos/program/options/units.h"
 #include "demos/program/window/panel.h"
+#include "demos/program/window/widgets.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
