@@ -139,8 +139,8 @@ TEST_CASE("program: a scene file with a wrong key or value is refused with its J
         R"({"name": "leg", "shape": {"sphere": {"radius": 1}}}], )";
     require_scene_refused(twins + R"("joints": [{"kind": {"ball": {}}, "a": 1, "b": "leg"}]})",
                           {"/joints/0/b", "\"leg\" names bodies 0 and 2; give an index"});
-    require_scene_refused(twins + R"("events": [{"time": 0, "impulse": {"body": "leg", "impulse": [1, 0, 0]}}]})",
-                          {"/events/0/impulse/body", "\"leg\" names bodies 0 and 2"});
+    require_scene_refused(twins + R"("events": [{"time": 0, "action": {"impulse": {"body": "leg", "impulse": [1, 0, 0]}}}]})",
+                          {"/events/0/action/impulse/body", "\"leg\" names bodies 0 and 2"});
     require_scene_refused(bodies + R"("kind": {"ball": {}}, "a": "door", "b": 0}]})", {"/joints/0/b", "joined to itself", "pin"});
     require_scene_refused(bodies + R"("kind": {"hinge": {}}, "b": 0, "anchor": [0, 0, 0], "axis": [0, 0, 0]}]})",
                           {"/joints/0/axis", "length 0"});
