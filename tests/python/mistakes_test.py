@@ -191,7 +191,7 @@ except MemoryError as error:
         world = scree.World(scene, backend="cpu", copies=2)
         self.assertEqual((world["lamp"], world[3], world.names, list(world)), (1, 3, ["", "lamp"], [0, 1, 2, 3]))
         self.assertTrue("lamp" in world and 3 in world and "lmap" not in world and 4 not in world)
-        for wrong, kind, what in (("lmap", KeyError, 'nearest: "lamp"'), ("chain", KeyError, r'joint 0 is: .joint\("chain"'), (4, IndexError, "4 of 4")):
+        for wrong, kind, what in (("lmap", KeyError, 'nearest: "lamp"'), ("chain", KeyError, r'joint 0 is: world.joint\("chain"'), (4, IndexError, "4 of 4")):
             with self.assertRaisesRegex(kind, what):
                 world[wrong]
         scene.add(scree.Sphere(), position=(3, 2, 0), name="lamp")

@@ -85,8 +85,11 @@ class Named(typing.Protocol):
     def indices_of(self, things: str, name: str) -> List[int]: ...
 
 
-def index_by_name(native: Named, things: str, name: str) -> int:
-    """The index of the one of "bodies", "joints" or "vehicles" that has this name; KeyError for none, and for several."""
+def index_by_name(native: Named, whose: str, things: str, name: str) -> int:
+    """The index of the one of "bodies", "joints" or "vehicles" that has this name; KeyError for none, and for several.
+
+    whose: "scene" or "world", for messages.
+    """
     found = native.indices_of(things, name)
     if len(found) == 1:
         return found[0]
@@ -97,7 +100,7 @@ def index_by_name(native: Named, things: str, name: str) -> int:
         elsewhere = native.indices_of(other, name) if other != things else []
         if elsewhere:
             quoted = f'"{name}"'
-            raise KeyError(f'no {one[things]} is named "{name}", but {one[other]} {elsewhere[0]} is: {how.format(quoted)}')
+            raise KeyError(f'no {one[things]} is named "{name}", but {one[other]} {elsewhere[0]} is: {whose}{how.format(quoted)}')
     near = difflib.get_close_matches(name, [known for known in native.names(things) if known], 1)
     raise KeyError(f'no {one[things]} is named "{name}"' + (f'; nearest: "{near[0]}"' if near else ""))
 

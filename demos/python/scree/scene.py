@@ -142,7 +142,7 @@ class Scene:
         one = {"bodies": "body", "joints": "joint", "vehicles": "vehicle"}
         if not isinstance(name, str):
             return whole(name, one[things])
-        return index_by_name(self._native, things, name)
+        return index_by_name(self._native, "scene", things, name)
 
     # ---- joints
     def add_joint(self, kind: JointKind, a: Union[int, str, None] = None, b: Union[int, str, None] = None, *,

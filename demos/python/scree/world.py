@@ -255,7 +255,7 @@ class World:
     def __getitem__(self, name: Union[str, int]) -> int:
         """The id of the body of that name in the scene, and so in copy 0, or the id itself; raises KeyError, and IndexError."""
         if isinstance(name, str):
-            return index_by_name(self._native, "bodies", name)
+            return index_by_name(self._native, "world", "bodies", name)
         body = whole(name, "body")
         if not 0 <= body < len(self):
             raise IndexError(f"body {body} of {len(self)}")
@@ -775,7 +775,7 @@ class World:
         """
         if not isinstance(name, str):
             raise TypeError(f"joint: takes one name, not {type(name).__name__}; of several: joint_ids")
-        return index_by_name(self._native, "joints", name)
+        return index_by_name(self._native, "world", "joints", name)
 
     @property
     def joint_names(self) -> typing.List[str]:
