@@ -215,10 +215,9 @@ public:
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    // Advances by `count` steps of 1/rate seconds. Buffers grow as needed. Throws only when memory ends
-    // (std::length_error or the device's own error): then the bodies are as after the last whole step,
-    // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error. Throws
-    // std::invalid_argument for a count below 0.
+    // Advances by `count` steps of 1/rate seconds. Buffers grow as needed. Throws only when memory ends (std::length_error or
+    // the device's own error): then the bodies are as after the last whole step, but for the impulses of the one that failed,
+    // and can be read; a further step throws std::logic_error. Throws std::invalid_argument for a count below 0.
     void step(int count = 1);
     // Memory that the tables of a step may take, bytes, from the next step on; on a device its own memory, but on a rank the
     // host's, also beside a device. Default: no limit. A step whose pairs and contacts need more throws std::length_error, which

@@ -15,15 +15,13 @@ std::size_t index_of(const json& value, const Place& place, schema::Refers refer
                           kind(value));
     const Numbers& numbers = refers == schema::Refers::to_body ? named.bodies : named.joints;
     const auto found = numbers.find(value.get<std::string>());
+    if (found != numbers.end() && !found->second.namesake) return found->second.index;
+    if (found == numbers.end() && or_world && value == "world") return the_world;
     const std::string name = value.dump(-1, ' ', false, json::error_handler_t::replace);
     const std::string things = refers == schema::Refers::to_body ? "bodies" : "joints";
-    if (found != numbers.end()) {
-        const Named& one = found->second;
-        if (!one.namesake) return one.index;
-        refuse(place, name + " names " + things + " " + std::to_string(one.index) + " and " + std::to_string(*one.namesake) +
-                          "; give an index, or each a name of its own");
-    }
-    if (or_world && value == "world") return the_world;
+    if (found != numbers.end())
+        refuse(place, name + " names " + things + " " + std::to_string(found->second.index) + " and " +
+                          std::to_string(*found->second.namesake) + "; give an index, or each a name of its own");
     refuse(place, "there is no " + what + " named " + name + "; " + things + " have indices from 0, or names");
 }
 

@@ -135,8 +135,7 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
     const char* group = "Pictures";
     command.add_option("--frames", options.frames, "Folder for frame_000000.png and so on.")->group(group);
     command
-        .add_flag("--overwrite", options.overwrite,
-                  "Remove frames of an earlier run from the folder; files are replaced without it.")
+        .add_flag("--overwrite", options.overwrite, "Remove frames and channels of an earlier run from the folder of --frames.")
         ->group(group);
     command
         .add_option(

@@ -6,7 +6,7 @@ import difflib
 import json
 import operator
 import typing
-from typing import Any, List, Optional, Tuple
+from typing import Any, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -216,3 +216,38 @@ def rotated(turns: Array, points: Array) -> Array:
 
 def maybe_vectors(value: Optional[Any], count: int, width: int, name: str) -> Optional[Floats]:
     return None if value is None else vectors(value, count, width, name)
+
+
+Native = typing.TypeVar("Native", bound=Named)
+
+
+class Bodies(typing.Generic[Native]):
+    """The bodies of a Scene or World, as a container of their ids."""
+
+    __slots__ = ()
+    _native: Native
+
+    def __len__(self) -> int:
+        raise NotImplementedError
+
+    def __iter__(self) -> typing.Iterator[int]:
+        """The ids of the bodies."""
+        return iter(range(len(self)))
+
+    def __contains__(self, body: object) -> bool:
+        """Whether there is a body of that name, or id."""
+        if isinstance(body, str):
+            return bool(self._native.indices_of("bodies", body))
+        return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
+
+    def __getitem__(self, name: Union[str, int]) -> int:
+        """The id of the body of that name, in a World of copies in copy 0, or the id itself; raises KeyError, and IndexError.
+
+        joint() finds joints.
+        """
+        if isinstance(name, str):
+            return index_by_name(self._native, type(self).__name__.lower(), "bodies", name)
+        body = whole(name, "body")
+        if not 0 <= body < len(self):
+            raise IndexError(f"body {body} of {len(self)}")
+        return body

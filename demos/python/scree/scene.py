@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from scree import _native
-from scree._arrays import Ids, count_of, floats, index_by_name, json_text, number, require_keys, triple, vectors, whole
+from scree._arrays import Bodies, Ids, count_of, floats, index_by_name, json_text, number, require_keys, triple, vectors, whole
 from scree._errors import SceneError
 from scree.camera import Camera
 from scree.joints import JointKind
@@ -51,7 +51,7 @@ def _density_of(shape: Shape, mass: Any) -> Any:
     return density.astype(np.float32) if density.ndim else float(density)
 
 
-class Scene:
+class Scene(Bodies[_native.Description]):
     """Bodies, joints and vehicles to simulate, in SI units, y up.
 
     gravity: (3,), m/s^2. `notes` tells what was changed or left out in reading a file.
@@ -113,25 +113,6 @@ class Scene:
     def __len__(self) -> int:
         """The number of bodies."""
         return self._native.count("bodies")
-
-    def __iter__(self) -> typing.Iterator[int]:
-        """The ids of the bodies."""
-        return iter(range(len(self)))
-
-    def __contains__(self, body: object) -> bool:
-        """Whether there is a body of that name, or id."""
-        if isinstance(body, str):
-            return bool(self._native.indices_of("bodies", body))
-        return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
-
-    def __getitem__(self, name: Union[str, int]) -> int:
-        """The id of the body of that name, or the id itself; raises KeyError, and IndexError. joint() finds joints."""
-        if isinstance(name, str):
-            return self._named("bodies", name)
-        body = whole(name, "body")
-        if not 0 <= body < len(self):
-            raise IndexError(f"body {body} of {len(self)}")
-        return body
 
     @property
     def names(self) -> List[str]:

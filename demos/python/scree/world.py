@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from scree import _native, _progress
-from scree._arrays import (Floats, Ids, count_of, each, floats, ids_of, index, index_by_name, json_text, maybe_vectors, number,
-                           require_keys, require_some, rotated, triple, turned, unit, vectors, whole)
+from scree._arrays import (Bodies, Floats, Ids, count_of, each, floats, ids_of, index, index_by_name, json_text, maybe_vectors,
+                           number, require_keys, require_some, rotated, triple, turned, unit, vectors, whole)
 from scree.camera import Camera, Picture, Size
 from scree.joints import JointKind, Spring
 from scree.scene import Scene, load
@@ -127,7 +127,7 @@ def _are_names(joints: Any) -> bool:
     return isinstance(joints, str) or (isinstance(joints, (list, tuple, np.ndarray)) and any(isinstance(one, str) for one in joints))
 
 
-class World:
+class World(Bodies[_native.World]):
     """A simulation of a scene.
 
     scene: a Scene, or the path of a scene file. backend: "auto" (a GPU, else what is faster here), "cpu" or "vulkan"; device:
@@ -241,25 +241,6 @@ class World:
     def __len__(self) -> int:
         """The number of ids: bodies, and fragments whether they exist yet or not."""
         return self._native.count()
-
-    def __iter__(self) -> typing.Iterator[int]:
-        """The ids, of bodies that are gone, too."""
-        return iter(range(len(self)))
-
-    def __contains__(self, body: object) -> bool:
-        """Whether there is a body of that name, or id."""
-        if isinstance(body, str):
-            return bool(self._native.indices_of("bodies", body))
-        return isinstance(body, (int, np.integer)) and not isinstance(body, bool) and 0 <= int(body) < len(self)
-
-    def __getitem__(self, name: Union[str, int]) -> int:
-        """The id of the body of that name in the scene, and so in copy 0, or the id itself; raises KeyError, and IndexError."""
-        if isinstance(name, str):
-            return index_by_name(self._native, "world", "bodies", name)
-        body = whole(name, "body")
-        if not 0 <= body < len(self):
-            raise IndexError(f"body {body} of {len(self)}")
-        return body
 
     @property
     def names(self) -> typing.List[str]:
