@@ -21,7 +21,7 @@ namespace scree {
 struct RayQuery {
     vec3 from{0};                     // m
     vec3 along{0, 0, -1};             // unit
-    float reach = unlimited;          // m, > 0
+    float reach = unlimited;          // m, > 0; as of all queries, infinity and `unlimited` are no limit
     std::uint32_t mask = 0xFFFFFFFF;  // of the categories of bodies and parts (Filter) that it sees
     bool solid = true;                // a body in which the ray begins is hit at distance 0; false: is not seen
     std::size_t copy = 0;             // of the scene, in a world of several
@@ -33,7 +33,7 @@ struct ShapeCast {
     vec3 from{0};                     // of its centre, m; of a hull or compound the origin of its points or parts
     vec4 orientation{0, 0, 0, 1};     // quaternion x, y, z, w of any length but 0
     vec3 along{0, 0, -1};             // unit
-    float reach = 1;                  // m, 0 to 1e6
+    float reach = 1;                  // m, >= 0
     std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
     std::size_t copy = 0;             // likewise
     bool solid = true;  // a body that it overlaps at the start is hit at distance 0; false: only if it moves deeper in,
@@ -54,7 +54,7 @@ struct ShapeOverlap {
 // The point of any body that is nearest to a point.
 struct ClosestQuery {
     vec3 point{0};                    // m
-    float reach = 1;                  // m, > 0 and at most 1e6: what is further away is not found
+    float reach = 1;                  // m, > 0: what is further away is not found
     std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
     std::size_t copy = 0;             // likewise
 };

@@ -114,19 +114,19 @@ struct Limits {       // of the position of B relative to A along an axis (m) or
     float lower = 0;  // -unlimited to unlimited, not above `upper`
     float upper = 0;
 };
-struct Spring {                   // spring-damper towards `rest`; with stiffness 0 a damper
+struct Spring {                   // spring-damper towards `rest`; with stiffness 0 a damper, with both 0 nothing yet
     float stiffness = 0;          // N/m or N m/rad, 0 to 1e12
     float damping = 0;            // N s/m or N m s/rad, 0 to 1e12
     float rest = 0;               // m or rad
-    float max_force = unlimited;  // N or N m
+    float max_force = unlimited;  // N or N m; of a spring that does nothing yet what World::set_drives keeps
     float speed = 0;              // m/s or rad/s, -1e4 to 1e4, towards which it damps
 };
 struct Motor {            // drives B relative to A
     float speed = 0;      // m/s or rad/s
     float max_force = 0;  // N or N m
 };
-// Behaviour along or about one axis: limits, a spring with damping, and a motor or dry friction. A spring with a motor or
-// friction has no max_force and no speed. A position motor is a spring whose `rest` World::set_drives moves.
+// Behaviour along or about one axis: limits, a spring with damping, and a motor or dry friction. A spring that acts beside
+// a motor or friction has no max_force and no speed. A position motor is a spring whose `rest` World::set_drives moves.
 struct Axis {
     bool locked = false;  // no motion
     std::optional<Limits> limits;

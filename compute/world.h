@@ -111,7 +111,8 @@ struct JointForce {
 };
 
 // For set_drives: the spring of an axis as a servo. It exerts stiffness (target - coordinate) + damping (target_speed - rate), at
-// most max_force. What is left out stays, or without a spring is 0, and max_force unlimited.
+// most max_force. What is left out stays, or without a spring is 0, and max_force unlimited. Joints of robot files have springs
+// that exert nothing and keep the file's effort as max_force.
 struct JointDrive {
     std::size_t joint = 0;
     JointAxis axis = JointAxis::twist;
@@ -274,10 +275,11 @@ public:
     // Set the motor or the spring of a joint's axis from the next step on (a hinge's axis is twist, a slider's x), and wake its
     // bodies. The other one stays, and friction, but that a motor takes its place; beside a spring a motor without force is
     // none. Throw std::out_of_range for the index, std::invalid_argument for an axis that cannot move, SceneError for the values
-    // and for a spring with a speed or a limit of its force beside a motor or friction.
+    // and for a spring that acts with a speed or a limit of its force beside a motor or friction.
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
-    // Many axes in one transfer. A drive takes the place of a motor. Throws the same, and then changes nothing.
+    // Many axes in one transfer. A drive takes the place of a motor, and one with a limit or a speed that of friction, too.
+    // Throws the same, and then changes nothing.
     void set_drives(std::span<const JointDrive> drives);
     // Limits, spring, motor and friction of an axis at present; one that cannot move is locked. Throws std::out_of_range.
     Axis joint_axis(std::size_t joint, JointAxis axis) const;

@@ -36,9 +36,12 @@ struct Rules {
             refuse(at, "a locked axis has no limits, spring, motor, friction or armature; leave them out, or \"locked\"");
         if (axis.motor && axis.friction != 0)
             refuse(at, "an axis has at most one of motor and friction; lower the motor's max_force by the friction");
-        if (axis.spring && axis.spring->max_force < unlimited && (axis.motor || axis.friction != 0))
-            refuse(at / "spring" / "max_force", "beside a motor or friction a spring's force has no limit; leave it out");
-        if (axis.spring && axis.spring->speed != 0 && (axis.motor || axis.friction != 0))
+        // Without stiffness and damping a spring exerts nothing, and keeps its limit for a drive.
+        if (!axis.spring || !(axis.spring->stiffness > 0 || axis.spring->damping > 0)) return;
+        if (axis.spring->max_force < unlimited && (axis.motor || axis.friction != 0))
+            refuse(at / "spring" / "max_force",
+                   "beside a motor or friction a spring's force has no limit; leave it out, or set stiffness and damping to 0");
+        if (axis.spring->speed != 0 && (axis.motor || axis.friction != 0))
             refuse(at / "spring" / "speed", "beside a motor or friction a spring damps towards speed 0; leave it out");
     }
 

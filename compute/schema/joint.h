@@ -18,13 +18,13 @@ inline constexpr auto table<Limits> = table_of(
     field("upper", &Limits::upper, within(static_cast<double>(unlimited)), "m or rad", "Upper limit").required());
 
 template <>
-inline constexpr auto table<Spring> =
-    table_of("spring", "Spring-damper towards `rest`; without stiffness a damper",
-             field("stiffness", &Spring::stiffness, between(0, 1e12), "N/m or N m/rad", "Force per displacement").written(),
-             field("damping", &Spring::damping, between(0, 1e12), "N s/m or N m s/rad", "Force per speed").written(),
-             field("rest", &Spring::rest, within(1e6), "m or rad", "Displacement at which it exerts no force").written(),
-             field("max_force", &Spring::max_force, any_force, "N or N m", "Greatest force"),
-             field("speed", &Spring::speed, within(1e4), "m/s or rad/s", "Speed towards which it damps"));
+inline constexpr auto table<Spring> = table_of(
+    "spring", "Spring-damper towards `rest`; without stiffness a damper, without damping, too, nothing until it is driven",
+    field("stiffness", &Spring::stiffness, between(0, 1e12), "N/m or N m/rad", "Force per displacement").written(),
+    field("damping", &Spring::damping, between(0, 1e12), "N s/m or N m s/rad", "Force per speed").written(),
+    field("rest", &Spring::rest, within(1e6), "m or rad", "Displacement at which it exerts no force").written(),
+    field("max_force", &Spring::max_force, any_force, "N or N m", "Greatest force"),
+    field("speed", &Spring::speed, within(1e4), "m/s or rad/s", "Speed towards which it damps"));
 
 template <>
 inline constexpr auto table<Motor> =

@@ -145,6 +145,8 @@ void World::set_drives(std::span<const JointDrive> drives) {
                                spring.max_force = drive.max_force.value_or(spring.max_force);
                                axis.spring = spring;
                                axis.motor.reset();
+                               const bool acts = spring.stiffness > 0 || spring.damping > 0;
+                               if (acts && (spring.max_force < unlimited || spring.speed != 0)) axis.friction = 0;
                            }});
     whole().set_axes(changes);
 }

@@ -27,11 +27,12 @@ namespace {
 constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
 constexpr float grazing = 1e-3f;   // slope of a way into a surface up to which a cast that is not solid slides along it
 constexpr int most_advances = 64;
+constexpr float widest = 1e6f;  // m, up to which what is nearest to a point is looked for in ever wider boxes
 
 }  // namespace
 
-float QueryScene::reach_of(const RayQuery& ray) {
-    return std::min(ray.reach, physics::LONGEST_RAY);
+float QueryScene::longest(float reach) {
+    return std::min(reach, physics::LONGEST_RAY);
 }
 bool QueryScene::nearer(const QueryHit& x, const QueryHit& y) {
     return std::tie(x.distance, x.body, x.part) < std::tie(y.distance, y.body, y.part);
@@ -76,7 +77,7 @@ std::optional<QueryHit> QueryScene::hit(const Leaf& leaf, const RayQuery& ray, f
     if (!sees(leaf, ray.mask)) return std::nullopt;
     const physics::RayMeeting met = physics::met_in_box(physics::meet_row(state_.properties[leaf.row], state_.poses[leaf.row],
                                                                           ray.from, ray.along, ray.solid, state_.hull_table()),
-                                                        near, reach_of(ray));
+                                                        near, longest(ray.reach));
     if (met.distance < 0) return std::nullopt;
     return QueryHit{leaf.body, leaf.part, met.distance, met.distance > 0 ? ray.from + ray.along * met.distance : ray.from,
                     met.normal};
@@ -85,7 +86,7 @@ std::optional<QueryHit> QueryScene::hit(const Leaf& leaf, const RayQuery& ray, f
 std::optional<QueryHit> QueryScene::nearest(const RayQuery& ray, bool any) const {
     const Bodies& in = of_[ray.copy];
     std::optional<QueryHit> best;
-    float reach = reach_of(ray);
+    float reach = longest(ray.reach);
     const auto offer = [&](const Leaf& leaf, float near) {
         const std::optional<QueryHit> found = hit(leaf, ray, near);
         if (!found || (best && !nearer(*found, *best))) return;
@@ -106,7 +107,7 @@ std::vector<QueryHit> QueryScene::all(const RayQuery& ray) const {
         if (const std::optional<QueryHit> one = hit(leaf, ray, near)) found.push_back(*one);
     };
     for (const Leaf& plane : in.planes) offer(plane, 0);
-    in.tree.for_each_met(ray.from, ray.along, vec3(0), reach_of(ray),
+    in.tree.for_each_met(ray.from, ray.along, vec3(0), longest(ray.reach),
                          [&](std::uint32_t leaf, float near) { offer(in.leaves[leaf], near); });
     std::sort(found.begin(), found.end(), nearer);
     return found;
@@ -148,30 +149,30 @@ std::vector<Penetration> QueryScene::penetrated(const ShapeOverlap& query, Piece
     return found;
 }
 
-// A point is a ball without a radius, whose distances are exact. The box that is looked through shrinks to the nearest so far,
-// so first to a tenth of the reach.
+// A point is a ball without a radius, whose distances are exact. The box that is looked through grows until it holds something,
+// and then shrinks to the nearest so far.
 std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
     const Bodies& in = of_[query.copy];
     QueryShapes::Piece point{};
     point.form.shape = physics::SHAPE_SPHERE;
     point.pose = {query.point, 0, vec4(0, 0, 0, 1)};
+    const float most = longest(query.reach);
     std::optional<QueryHit> best;
     const auto offer = [&](const Leaf& leaf) {
         if (!sees(leaf, query.mask)) return;
         vec3 normal(0);
         const float distance = std::max(0.0f, gap(leaf, point, state_.hull_table(), &normal));
-        if (!(distance <= query.reach)) return;
+        if (!(distance <= most)) return;
         const QueryHit found{leaf.body, leaf.part, distance, query.point - normal * distance, normal};
         if (!best || nearer(found, *best)) best = found;
     };
     for (const Leaf& plane : in.planes) offer(plane);
-    for (const float share : {0.01f, 0.1f, 1.0f}) {
-        const float reach = best ? std::min(best->distance, query.reach) : share * query.reach;
+    for (float wide = std::clamp(0.01f * most, 1e-3f, 1.0f);; wide *= 10) {
+        const float reach = best ? best->distance : (wide <= widest ? std::min(wide, most) : most);
         in.tree.for_each_overlap({query.point - vec3(reach), query.point + vec3(reach)},
                                  [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
-        if (best && best->distance <= reach) break;
+        if (reach >= most || (best && best->distance <= reach)) return best;
     }
-    return best;
 }
 
 // Conservative advancement (Mirtich 1996) along a line: the separation along a fixed axis never exceeds the distance.
@@ -208,7 +209,7 @@ std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& c
 std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, Pieces pieces, physics::Hulls hulls) const {
     const Bodies& in = of_[cast.copy];
     std::optional<QueryHit> best;
-    float reach = cast.reach;
+    float reach = longest(cast.reach);
     for (const QueryShapes::Piece& piece : pieces) {
         const auto offer = [&](const Leaf& leaf) {
             const std::optional<QueryHit> found = cast_at(leaf, cast, piece, hulls, reach);
@@ -240,7 +241,7 @@ std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCas
         check_copy("cast", i, cast.copy, copies());
         shapes.add("cast", cast.shape, cast.from, cast.orientation);
         if (!is_unit(cast.along)) refuse_query("cast", i, "its direction must be of length 1");
-        if (!(cast.reach >= 0 && cast.reach <= 1e6f)) refuse_query("cast", i, "its reach must be between 0 and 1000000 m");
+        if (!(cast.reach >= 0)) refuse_query("cast", i, "its reach must be 0 m or more");
     }
     const QueryScene& bodies = whole().query_scene();
     shapes.join(whole().state);
@@ -254,8 +255,7 @@ std::vector<std::optional<QueryHit>> World::closest_points(std::span<const Close
     for (std::size_t i = 0; i < points.size(); ++i) {
         check_copy("point", i, points[i].copy, copies());
         if (!is_finite(points[i].point)) refuse_query("point", i, "it must be finite");
-        if (!(points[i].reach > 0 && points[i].reach <= 1e6f))
-            refuse_query("point", i, "its reach must be above 0 and at most 1000000 m");
+        if (!(points[i].reach > 0)) refuse_query("point", i, "its reach must be above 0 m");
     }
     const QueryScene& bodies = whole().query_scene();
     std::vector<std::optional<QueryHit>> found(points.size());

@@ -18,7 +18,7 @@ public:
     // Refers to both, whose poses must be up to date.
     QueryScene(const Scene& scene, const State& state);
 
-    static float reach_of(const RayQuery& ray);                // m
+    static float longest(float reach);                         // m, of queries without a limit one that sums can bear
     static bool nearer(const QueryHit& x, const QueryHit& y);  // of two hits the one that counts
     // `any`: not always the nearest one.
     std::optional<QueryHit> nearest(const RayQuery& ray, bool any) const;

@@ -32,7 +32,7 @@ public:
         task_.moment = moment;
         runner.threads().for_each(records_of(rays.size()), [&](std::size_t i) {
             records_[i] = {
-                rays[i].from, QueryScene::reach_of(rays[i]), rays[i].along, rays[i].mask, rays[i].solid ? 1u : 0u, 0, 0, 0};
+                rays[i].from, QueryScene::longest(rays[i].reach), rays[i].along, rays[i].mask, rays[i].solid ? 1u : 0u, 0, 0, 0};
         });
         task_.rays = records_;
         done_ = runner.cast(task_);

@@ -244,6 +244,10 @@ TEST_CASE("imports: actuators become springs, dampers and motors") {
     turn = axis("<motor joint='j' ctrlrange='-1 1'/>");
     CHECK_FALSE(turn.motor);
     CHECK(file.noted("World::apply_joint_forces"));
+    CHECK_FALSE(turn.spring);
+    turn = axis("<motor joint='j' forcerange='-9 9' gear='2'/>");  // the effort of drives to come
+    CHECK(turn.spring->max_force == 18);
+    CHECK(turn.spring->stiffness + turn.spring->damping == 0);
     turn = axis("<position joint='j' kp='100' dampratio='1'/>");  // critically damped: 2 sqrt(k I)
     const double inertia = 0.4 * (4.0 / 3 * pi * 1e-3 * 1000) * 0.01;
     CHECK(turn.spring->damping == Approx(2 * std::sqrt(100 * inertia)).epsilon(1e-4));

@@ -37,23 +37,86 @@ std::string cube_stl() {
 
 }  // namespace
 
-TEST_CASE("imports: an arm of a URDF holds its pose by its efforts, and sags beyond them") {
-    std::vector<std::string> notes;
+TEST_CASE("imports: drives hold an arm of a URDF by its efforts, and it sags beyond them") {
     const auto path = std::filesystem::path(SCREE_SOURCE_DIR) / "tests/imports/arm.urdf";
-    SceneDocument document = load_scene(path, {}, &notes);
+    SceneDocument document = load_scene(path);
     REQUIRE(document.scene.joints.size() == 6);
+    const auto axis_of = [&](std::size_t j) { return main_axis(document.scene.joints[j].kind); };
+    const auto coordinate = [&](const World& arm, std::size_t j) {
+        return std::abs(arm.joint(j).coordinates[static_cast<std::size_t>(axis_of(j))]);
+    };
+    const auto drive = [&](World& arm) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            const JointDrive hold{.joint = j, .axis = axis_of(j), .stiffness = 1e5f, .damping = 1e3f};
+            arm.set_drives({&hold, 1});
+        }
+    };
     World arm(document.scene);
+    drive(arm);
     arm.step(600);
     for (std::size_t j = 0; j < 6; ++j) {
         INFO(document.scene.joints[j].name);
-        const std::size_t axis = std::holds_alternative<Slider>(document.scene.joints[j].kind) ? 0 : 3;
-        CHECK(std::abs(arm.joint(j).coordinates[axis]) < 0.002f);
+        CHECK(coordinate(arm, j) < 0.002f);
     }
+    CHECK(arm.joint_axis(1, axis_of(1)).spring->max_force == 120);
     for (Joint& joint : document.scene.joints)
-        if (auto* hinge = std::get_if<Hinge>(&joint.kind)) hinge->turn.motor->max_force = 1;
+        if (auto* hinge = std::get_if<Hinge>(&joint.kind)) hinge->turn.spring->max_force = 1;
     World weak(document.scene);
+    drive(weak);
     weak.step(600);
-    CHECK(std::abs(weak.joint(1).coordinates[3]) > 0.2f);
+    CHECK(coordinate(weak, 1) > 0.2f);
+}
+
+TEST_CASE("imports: a joint of a URDF moves freely until it is driven, then by no more than its effort") {
+    Case file;
+    const auto slide = [&](const std::string& inside) {
+        Scene scene = file.load("r.urdf", robot("type='prismatic'><limit lower='-100' upper='100' effort='6'/>" + inside)).scene;
+        scene.gravity = vec3(0);
+        return scene;
+    };
+    const auto rate = [](const World& world) { return world.joint(0).rates[0]; };
+    const auto axis = [](const World& world) { return world.joint_axis(0, JointAxis::x); };
+    World pushed(slide(""), {.rate = 240});  // 2 kg
+    for (int i = 0; i < 120; ++i) {
+        const JointForce force{.joint = 0, .axis = JointAxis::x, .force = 10};
+        pushed.apply_joint_forces({&force, 1});
+        pushed.step();
+    }
+    CHECK(rate(pushed) == Approx(2.5f).epsilon(1e-3));
+
+    const JointDrive far{.joint = 0, .axis = JointAxis::x, .stiffness = 1e5f, .target = 90};
+    World driven(slide(""), {.rate = 240});
+    driven.set_drives({&far, 1});
+    driven.step(120);
+    CHECK(rate(driven) == Approx(1.5f).epsilon(1e-3));
+
+    // Its friction holds until a drive with a limit, or a motor, takes its place.
+    World rubbed(slide("<dynamics friction='5'/>"), {.rate = 240});
+    CHECK(axis(rubbed).friction == 5);
+    CHECK(axis(rubbed).spring->max_force == 6);
+    for (int i = 0; i < 120; ++i) {
+        const JointForce force{.joint = 0, .axis = JointAxis::x, .force = 10};
+        rubbed.apply_joint_forces({&force, 1});
+        rubbed.step();
+    }
+    CHECK(rate(rubbed) == Approx(1.25f).epsilon(1e-3));
+    rubbed.set_motor(0, JointAxis::x, {0.5f, 100});
+    rubbed.step(60);
+    CHECK(rate(rubbed) == Approx(0.5f).epsilon(1e-3));
+    rubbed.set_drives({&far, 1});
+    CHECK(axis(rubbed).friction == 0);
+    CHECK(axis(rubbed).spring->max_force == 6);
+    CHECK_FALSE(axis(rubbed).motor);
+    CHECK_THROWS_WITH(rubbed.set_motor(0, JointAxis::x, {0.5f, 100}), Catch::Contains("set stiffness and damping to 0"));
+
+    // Passive damping is no actuator: it has no bound, which is told.
+    CHECK_FALSE(file.noted("effort or forcerange"));
+    World damped(slide("<dynamics damping='40'/>"), {.rate = 240});
+    CHECK(file.noted("effort or forcerange: is left out beside stiffness, damping or a motor"));
+    CHECK(axis(damped).spring->max_force == unlimited);
+    damped.set_velocity(damped.scene().joints[0].b, vec3(8, 0, 0), vec3(0));
+    damped.step(12);  // 0.05 s; against 6 N alone it would have 7.85 m/s
+    CHECK(rate(damped) == Approx(8 * std::exp(-1.0)).epsilon(0.02));
 }
 
 TEST_CASE("imports: joints of every type of URDF become scree's") {
@@ -72,7 +135,10 @@ TEST_CASE("imports: joints of every type of URDF become scree's") {
     const auto& six = std::get<SixDof>(plane.joints[0].kind);
     CHECK(int(six.x.locked) + int(six.y.locked) + int(six.z.locked) == 1);
     const Scene held = joint("type='revolute'><limit lower='-1' upper='2' effort='7'/>");
-    CHECK(std::get<Hinge>(held.joints[0].kind).turn.motor->max_force == 7);
+    const Axis& effort = std::get<Hinge>(held.joints[0].kind).turn;
+    CHECK_FALSE(effort.motor);
+    CHECK(effort.spring->max_force == 7);
+    CHECK(effort.spring->stiffness + effort.spring->damping == 0);
 }
 
 TEST_CASE("imports: links that are fixed merge, a root is fixed with a note or free, and ground is added below") {

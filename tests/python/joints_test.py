@@ -132,6 +132,26 @@ class Control(unittest.TestCase):
             hashes.add(world.state_hash())
         self.assertEqual(len(hashes), 1)
 
+    def test_positions_and_rates_are_those_along_or_about_each_joint(self):
+        scene = arm(1)
+        scene.add(scree.Sphere(.1), position=(0, 5, 0))
+        scene.add_joint(scree.Slider(), None, 1, anchor=(0, 5, 0), axis=(0, 1, 0), name="rail")
+        for world in (scree.World(scene, backend="cpu"), scree.World(scene, copies=2, backend="cpu")):
+            world.set_joint_coordinates(["joint 0", "rail"], [7, .25], rate=[1, -2])  # more than a turn
+            shape = world.joints().shape
+            np.testing.assert_allclose(world.joint_positions, np.broadcast_to([7, .25], shape), atol=1e-5)
+            np.testing.assert_allclose(world.joint_rates, np.broadcast_to([1, -2], shape), atol=1e-5)
+            self.assertEqual((world.joint_positions.shape, world.joint_positions.flags.writeable), (shape, False))
+
+    def test_an_imported_effort_bounds_drives_alone(self):
+        text = ROBOT.replace('effort="0"', 'effort="3"')
+        world = scree.World(loaded(text, "robot.urdf", axes="file"), backend="cpu")
+        self.assertEqual(world.drives().max_force.tolist(), [3])
+        world.step(30)
+        self.assertGreater(abs(world.joint_positions[0]), .3)  # nothing holds it
+        world.set_drive("elbow", stiffness=1e4, damping=1e3)
+        self.assertEqual(world.drives().max_force.tolist(), [3])
+
     def test_a_robot_is_set_up(self):
         scene = loaded(ROBOT, "robot.urdf", axes="file")
         world = scree.World(scene, backend="cpu")

@@ -87,8 +87,10 @@ class Imports(unittest.TestCase):
         self.assertTrue(any("arm.urdf:" in note and "mimic" in note for note in arm.notes))
         world = scree.World(arm, backend="cpu")
         before = world.position
+        world.set_drive(world.joint_ids()[0], stiffness=1e5, damping=1e3)  # holds the arm by its efforts
         world.step(60)
         np.testing.assert_allclose(world.position, before, atol=2e-3)
+        np.testing.assert_allclose(world.joint_positions, 0, atol=2e-3)
         dog = scree.load(os.path.join(folder, "quadruped.xml"), keyframe="home", axes="file")
         np.testing.assert_allclose(dog.gravity, (0, 0, -9.81), rtol=1e-6)
         with self.assertRaisesRegex(scree.SceneError, r"quadruped.xml:\d+: .*without --strict it would be a note"):

@@ -321,6 +321,7 @@ class Model(unittest.TestCase):
         near = world.closest_points([(0, 1.4, 0), (0, 50, 0)], 5)
         self.assertEqual(near.body.tolist(), [ids[0], -1])
         self.assertAlmostEqual(float(near.distance[0]), .3, places=4)
+        self.assertEqual(world.closest_points([(0, 1.4, 0), (0, 50, 0)], np.inf).body.tolist(), [ids[0]] * 2)
 
 
 class Queries(unittest.TestCase):
@@ -350,6 +351,8 @@ class Queries(unittest.TestCase):
         stop = world.cast_shapes(scree.Sphere(.5), (0, 10, 0), (0, -1, 0), 20)
         self.assertEqual(stop.body[0], ids[0])
         self.assertAlmostEqual(float(stop.point[0, 1]), 1.6, places=3)
+        for away, found in ((-1, ids[0]), (1, -1)):
+            self.assertEqual(world.cast_shapes(scree.Sphere(.5), (0, 10, 0), (0, away, 0), np.inf).body.tolist(), [found])
         starts, parts = world.overlaps(scree.Box((.2, .2, .2)), [(0, .6, 0), (0, 30, 0)])
         self.assertEqual(parts[starts[0]:starts[1]].body.tolist(), [ids[0]])
         self.assertEqual(starts.tolist(), [0, 1, 1])

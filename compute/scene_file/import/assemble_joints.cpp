@@ -49,6 +49,13 @@ Axis axis_of(const ModelJoint& joint, double sign, Notes& notes) {
         notes.add(joint.origin, "friction", "is left out beside a motor of limited force");
     }
     if (axis.motor && axis.spring && bounded) axis.spring->max_force = unlimited;
+    if (!(joint.effort < static_cast<double>(unlimited))) return axis;
+    // A spring that exerts nothing keeps the effort for World::set_drives. Passive damping has no bound.
+    if (!axis.spring && !axis.motor)
+        axis.spring = Spring{.max_force = static_cast<float>(joint.effort)};
+    else
+        notes.add(joint.origin, "effort or forcerange",
+                  "is left out beside stiffness, damping or a motor, which it does not bound; give drives a max_force");
     return axis;
 }
 

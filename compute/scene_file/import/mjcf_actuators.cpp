@@ -121,10 +121,12 @@ void Mjcf::read_actuator(const host::XmlElement& tree) {
         if (!bounds) actuator.note("kv", "is left out: the motor has any force that its speed needs");
     } else if (damping > 0) {
         joint.damping += damping;
-    } else if (constant != 0) {
-        actuator.note("ctrl", "of a motor is left out; World::apply_joint_forces gives forces each step");
-    } else if (kind == "motor" || kind == "general") {
-        actuator.note("", "has no control and exerts nothing; World::apply_joint_forces gives forces each step");
+    } else if (constant != 0 || kind == "motor" || kind == "general") {
+        if (constant != 0)
+            actuator.note("ctrl", "of a motor is left out; World::apply_joint_forces gives forces each step");
+        else
+            actuator.note("", "has no control and exerts nothing; World::apply_joint_forces gives forces each step");
+        if (greatest > 0) joint.effort = std::min(joint.effort, greatest);
     }
 }
 

@@ -40,10 +40,11 @@ struct ModelJoint {
     double friction = 0;
     double armature = 0;  // kg or kg m^2
     std::optional<Motor> motor{};
-    double reference = 0;          // what the file calls the coordinate where it is 0 here
-    double start = 0;              // coordinate at the beginning, m or rad
-    dquat start_turn{1, 0, 0, 0};  // of a ball
-    double start_speed = 0;        // m/s or rad/s
+    double effort = static_cast<double>(unlimited);  // of a drive that is yet to come, N or N m
+    double reference = 0;                            // what the file calls the coordinate where it is 0 here
+    double start = 0;                                // coordinate at the beginning, m or rad
+    dquat start_turn{1, 0, 0, 0};                    // of a ball
+    double start_speed = 0;                          // m/s or rad/s
 };
 
 struct ModelBody {

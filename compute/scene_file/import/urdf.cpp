@@ -283,11 +283,8 @@ void Urdf::read_joint(const host::XmlElement& tree, ModelBody& body) {
         if (type == 1 || type == 3) joint.limits = {lower, upper};
         bounds.ignore({"velocity"}, "is left out: no motor is faster than it is told to be");
         bounds.finish();
-        // As in other simulators, what can exert an effort holds its pose until it is told to move.
-        if (effort > 0 && type != 5) {
-            joint.motor = Motor{0, static_cast<float>(effort)};
-            joint.friction = 0;
-        }
+        if (effort > 0 && type != 5) joint.effort = effort;
+        if (effort > 0 && type == 5) bounds.note("effort", "of a planar joint is left out; give drives a max_force");
     }
     body.joints.push_back(std::move(joint));
 }

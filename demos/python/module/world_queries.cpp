@@ -90,7 +90,7 @@ std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Flo
     for (std::size_t i = 0; i < rays.size(); ++i) {
         rays[i].from = vec3_at(from.data(), i);
         rays[i].along = vec3_at(along.data(), i);
-        rays[i].reach = std::isinf(reach.data()[i]) && reach.data()[i] > 0 ? unlimited : reach.data()[i];
+        rays[i].reach = reach.data()[i];
         rays[i].mask = mask;
         rays[i].solid = solid;
         rays[i].copy = copy_at(copies, i);

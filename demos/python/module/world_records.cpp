@@ -116,6 +116,20 @@ DriveRecord record_of(const Axis& axis) {
             bound(motor.max_force), axis.friction,  axis.armature, bound(limits.lower), bound(limits.upper),     axis.locked};
 }
 
+// Along or about the axis on which each joint moves: coordinates and rates.
+py::tuple joint_motions(WorldObject& object) {
+    Use world(object);
+    const std::vector<JointState> states = world->joints();
+    const std::vector<Joint>& joints = world->scene().joints;
+    Floats coordinates(static_cast<py::ssize_t>(states.size())), rates(static_cast<py::ssize_t>(states.size()));
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto axis = static_cast<std::size_t>(main_axis(joints[i].kind));
+        coordinates.mutable_data()[i] = states[i].coordinates[axis];
+        rates.mutable_data()[i] = states[i].rates[axis];
+    }
+    return py::make_tuple(coordinates, rates);
+}
+
 // Of the axis of that number, or below 0 of that along or about which each joint moves.
 py::array drives(WorldObject& object, int axis) {
     Use world(object);
@@ -174,6 +188,7 @@ void bind_records(py::module_& module, WorldClass& of_world) {
     module.attr("vehicle_dtype") = py::dtype::of<VehicleRecord>();
     of_world.def("contacts", [](WorldObject& object) { return state_records(Use(object)->contacts()); })
         .def("joints", [](WorldObject& object) { return state_records(Use(object)->joints()); })
+        .def("joint_motions", &joint_motions)
         .def("drives", &drives)
         .def("names", &names)
         .def("indices_of", &indices_by_name)

@@ -575,7 +575,7 @@ class World(Bodies[_native.World]):
     # ---- queries
     def cast_rays(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True,
                   copy: Any = 0) -> "np.recarray[Any, Any]":
-        """The nearest hit of each ray. origins, directions: (n, 3) or one row for all; reach: m, one or (n,).
+        """The nearest hit of each ray. origins, directions: (n, 3) or one row for all; reach: m, one or (n,); np.inf: no limit.
 
         Fields, also attributes: body (-1: nothing), part, distance (m, infinite where there is nothing), point (3,), normal (3,).
         mask: of the categories seen; solid: a ray that begins in a body hits it at 0, else it leaves it unseen. copy: of the
@@ -617,7 +617,7 @@ class World(Bodies[_native.World]):
         """The first body that a shape meets as it moves along each line; fields as of cast_rays, point: where the origin of the shape is then.
 
         shape: convex (a Hull, too) or a Compound of solid convex parts; origins: of its centre, of a Hull or Compound of the origin of
-        its points or parts. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
+        its points or parts. reach: m, also np.inf, one or (n,); orientation: (4,) or (n, 4).
         solid: a body that the shape overlaps at the start is hit at distance 0; False: only if the shape moves deeper in, so a character
         that stands or touches a wall moves along and away. ignore: a body that is passed through, one id, or (n,), -1 for none.
         """
@@ -627,7 +627,7 @@ class World(Bodies[_native.World]):
                                         ids_of(copy, self.copies, "copies"), bool(solid), self._ignored(ignore)).view(np.recarray)
 
     def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
-        """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
+        """The nearest point of any body within reach (m, also np.inf) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
         place = np.atleast_2d(floats(points, "points"))
         place = vectors(place, len(place), 3, "points")
         return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), _mask(mask), ids_of(copy, self.copies, "copies")).view(np.recarray)
@@ -749,6 +749,19 @@ class World(Bodies[_native.World]):
         """
         return self._shaped(self._native.joints()).view(np.recarray)
 
+    @property
+    def joint_positions(self) -> Floats:
+        """(m,), or (copies, m): where each joint is: the angle of a hinge, rad, with whole turns; of a slider how far, m.
+
+        Of others the length of a distance joint, m, and the twist, rad. set_joint_coordinates() changes them; other axes: joints().
+        """
+        return self._shaped(self._native.joint_motions()[0])
+
+    @property
+    def joint_rates(self) -> Floats:
+        """(m,), or (copies, m): how fast joint_positions change, rad/s and m/s."""
+        return self._shaped(self._native.joint_motions()[1])
+
     def joint(self, name: str) -> int:
         """The index of the joint of that name in the scene, and so in copy 0; raises KeyError. Of all copies: joint_ids(name).
 
@@ -813,7 +826,8 @@ class World(Bodies[_native.World]):
     def set_motor(self, joints: Any, speed: Any, max_force: Any, axis: Optional[str] = None) -> None:
         """Drives joints at a speed: m/s and N along x, y, z, rad/s and N m about the others; one number for all, or one each.
 
-        A spring of the axis stays, and a motor without force beside one is none; the motor takes the place of friction.
+        A spring of the axis stays, and a motor without force beside one is none; the motor takes the place of friction. Raises SceneError
+        beside a spring that acts with max_force or a speed.
         """
         named, shape = self._joints_of(joints)
         self._native.set_motors(named, self._axis_name(axis), typing.cast(Floats, each(speed, shape, "speed")),
@@ -829,7 +843,7 @@ class World(Bodies[_native.World]):
         """Servos, of many joints at once: stiffness (target - coordinate) + damping (target_speed - rate), at most max_force.
 
         Each a number for all, or an array of the shape of the joints; what is not given stays. It is the axis's spring, and takes the place
-        of a motor. Units: m and N, or rad and N m. Raises SceneError for max_force or target_speed where there is friction.
+        of a motor, and with max_force or target_speed that of friction. max_force of robot files: their effort. Units: m and N, or rad and N m.
         """
         require_some("set_drive", stiffness=stiffness, damping=damping, target=target, target_speed=target_speed, max_force=max_force)
         named, shape = self._joints_of(joints)

@@ -64,6 +64,10 @@ TEST_CASE("a motor leaves the spring of its axis, a spring the motor and the fri
                       Contains("beside a motor or friction"));
     CHECK_THROWS_WITH(stuck.set_spring(0, JointAxis::x, {.damping = 3, .speed = 1}), Contains("damps towards speed 0"));
     CHECK(stuck.joint_axis(0, JointAxis::y).locked);
+    stuck.set_spring(0, JointAxis::x, {.max_force = 7, .speed = 1});  // exerts nothing yet
+    CHECK(stuck.joint_axis(0, JointAxis::x).friction == 5);
+    stuck.set_motor(0, JointAxis::x, {1, 3});
+    CHECK(stuck.joint_axis(0, JointAxis::x).spring->max_force == 7);
     CHECK_THROWS_AS(stuck.joint_axis(1, JointAxis::x), std::out_of_range);
 }
 
@@ -85,6 +89,16 @@ TEST_CASE("a servo moves to its target, keeps what is not named, and pushes no h
     weak.set_drives(pushes);
     weak.step(240);
     CHECK(weak.joint(0).rates[0] == Approx(16 / mass).epsilon(1e-3));
+
+    // With a limit or a speed it takes the place of friction, else friction stays.
+    World rough(slider({.friction = 5}), {.rate = 240});
+    const auto friction_after = [&](JointDrive drive) {
+        drive.axis = JointAxis::x;
+        rough.set_drives({&drive, 1});
+        return rough.joint_axis(0, JointAxis::x).friction;
+    };
+    CHECK(friction_after({.stiffness = 800, .target = 1}) == 5);
+    CHECK(friction_after({.max_force = 16}) == 0);
 
     const JointDrive wrong[] = {{.joint = 0, .axis = JointAxis::x, .target = 3},
                                 {.joint = 0, .axis = JointAxis::x, .stiffness = -1}};

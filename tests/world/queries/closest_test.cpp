@@ -1,6 +1,7 @@
 // The nearest point of bodies, against every body alone and closed forms.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "compute/world.h"
@@ -35,6 +36,36 @@ TEST_CASE("the closest points of simple bodies are where geometry says") {
                       Catch::Contains("point 0: it must be finite"));
     CHECK_THROWS_WITH(world.closest_points(std::vector{ClosestQuery{}, ClosestQuery{.reach = 0}}),
                       Catch::Contains("point 1: its reach"));
+    CHECK_THROWS_WITH(world.closest_points(std::vector{ClosestQuery{.reach = NAN}}), Catch::Contains("point 0: its reach"));
+}
+
+TEST_CASE("rays, casts and closest points take infinity and unlimited for no limit, and find what is far away") {
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Box{vec3(100)}, .position = {9e5f, 0, 0}});
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Box{vec3(100)}, .position = {-9.5e5f, 0, 0}});
+    World world(scene);
+    const vec3 from(-9e5f, 0, 0), right(1, 0, 0);
+    for (const float reach : {unlimited, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::max(), 2e6f}) {
+        CAPTURE(reach);
+        const auto ray = world.cast_rays(std::vector{RayQuery{.from = from, .along = right, .reach = reach}});
+        const auto cast =
+            world.cast_shapes(std::vector{ShapeCast{.shape = Sphere{50}, .from = from, .along = right, .reach = reach}});
+        REQUIRE((ray[0] && cast[0]));
+        CHECK(ray[0]->distance == Approx(1.7999e6));
+        CHECK(cast[0]->distance == Approx(1.79985e6));
+        CHECK(cast[0]->body == 0);
+        const auto near = world.closest_points(std::vector{ClosestQuery{.point = {2.5e6f, 0, 0}, .reach = reach},
+                                                           ClosestQuery{.point = from, .reach = reach},
+                                                           ClosestQuery{.point = from, .reach = reach, .mask = 2}});
+        REQUIRE((near[0] && near[1]));
+        CHECK(near[0]->body == 0);
+        CHECK(near[0]->distance == Approx(1.5999e6));
+        CHECK(near[1]->body == 1);
+        CHECK(near[1]->distance == Approx(4.99e4));
+        CHECK_FALSE(near[2]);
+    }
+    for (const float reach : {1e-3f, 1e-44f})
+        CHECK_FALSE(world.closest_points(std::vector{ClosestQuery{.point = from, .reach = reach}})[0]);
 }
 
 TEST_CASE("of many bodies the closest point is that of the nearest one, with any number of threads") {
