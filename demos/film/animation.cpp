@@ -49,10 +49,7 @@ void AnimationRecorder::take_bodies(const World& world) {
         body.name = described.name.empty() ? fmt::format("body {}", i) : described.name;
         body.plane = std::holds_alternative<Plane>(described.shape);
         body.drawn = meshes.add(described.shape, plane_reach, 0.5f * (low + high));
-        if (described.color) {
-            glm::vec3& light = body.color.emplace();
-            for (glm::length_t k = 0; k < 3; ++k) light[k] = host::linear_from_srgb((*described.color)[k]);
-        }
+        if (described.color) body.color = host::linear_from_srgb(*described.color);
         body.moves = described.motion != Motion::fixed;
         body.inverse_mass = double{state.properties[state.row_of(i)].inverse_mass};
         body.exists = body.existed = states[i].exists;

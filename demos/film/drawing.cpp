@@ -165,8 +165,7 @@ std::vector<glm::vec4> colors_of(const Scene& scene) {
         const Body& body = scene.bodies[i];
         if (body.piece_of < i) colors[i] = colors[body.piece_of];
         if (!body.color) continue;
-        const vec3 c = *body.color;
-        colors[i] = {host::linear_from_srgb(c.r), host::linear_from_srgb(c.g), host::linear_from_srgb(c.b), 1};
+        colors[i] = glm::vec4(host::linear_from_srgb(*body.color), 1);
     }
     return colors;
 }

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "compute/distributed/ranks.h"
+#include "compute/scene_file/hex_color.h"
 #include "compute/tables/state.h"
 #include "demos/film/camera.h"
 #include "demos/film/camera_track.h"
@@ -72,7 +73,8 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     canvas.width = options.width * factor_of(options);
     canvas.height = options.height * factor_of(options);
     canvas.bits = options.drawn_bits();
-    canvas.background = options.background != "none";
+    canvas.background = options.background == "sky";
+    if (const auto color = color_of_hex(options.background)) canvas.backdrop = host::linear_from_srgb(*color);
     canvas.legend = options.legend;
     canvas.smooth = options.samples == 1;  // averaged pictures are smooth
     show_overlays(style, world, canvas);
@@ -83,7 +85,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
 bool can_be_parts(const PictureOptions& options, const LoadedScene& subject, World& world) {
     if (style_of(options, subject.style).color == ShownQuantity::own) return false;  // ranks do not have them
     return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty() &&
-           options.background != "none";
+           options.background == "sky";
 }
 
 // All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.

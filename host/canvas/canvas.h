@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -104,8 +105,9 @@ struct CanvasOptions {
     bool shadows = true;  // shadow map of the sun, and ambient occlusion
     // false: neither sky nor haze, and of planes the shadows alone, black and as opaque as dark. Pictures have alpha.
     bool background = true;
-    bool legend = true;  // the colour scale
-    bool marks = false;  // contact points, with lines for the impulses; bodies are drawn paler
+    std::optional<vec3> backdrop{};  // without background: drawn in its place, linear, so that pictures are opaque
+    bool legend = true;              // the colour scale
+    bool marks = false;              // contact points, with lines for the impulses; bodies are drawn paler
     // Velocity change of the lighter body, m/s, at which the line of an impulse is half as long as the thinner body's
     // half width; length grows with the square root.
     float mark_push = 0.02f;

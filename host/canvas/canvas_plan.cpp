@@ -74,6 +74,10 @@ CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor) {
     return options;
 }
 
+vec4 clear_color(const CanvasOptions& options) {
+    return options.background || !options.backdrop ? vec4(0) : vec4(*options.backdrop, 1);
+}
+
 std::vector<Draw> draws_of(const CanvasOptions& options) {
     std::vector<Draw> draws;
     for (const Pass map : {Pass::sun_map, Pass::sky_map}) {

@@ -109,6 +109,9 @@ constexpr bool smooths_on_device(const CanvasOptions& options) {
 // `options.samples`.
 CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor);
 
+// What a picture is cleared to, linear; w: alpha.
+vec4 clear_color(const CanvasOptions& options);
+
 // The draws of a picture, sorted by pass. `options.samples` must be resolved to 1 or 4.
 std::vector<Draw> draws_of(const CanvasOptions& options);
 

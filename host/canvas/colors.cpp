@@ -157,6 +157,10 @@ float linear_from_srgb(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
+vec3 linear_from_srgb(vec3 encoded) {
+    return {linear_from_srgb(encoded.r), linear_from_srgb(encoded.g), linear_from_srgb(encoded.b)};
+}
+
 std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most) {
     std::vector<float> ticks;
     if (!(high > low) || most < 1 || !std::isfinite(low) || !std::isfinite(high)) return ticks;

@@ -65,6 +65,7 @@ glm::vec3 map_color(ColorMap map, float t);
 // sRGB transfer function of one channel: linear 0..1 to a byte 0..255, and encoded 0..1 to linear.
 int srgb_byte(float linear);
 float linear_from_srgb(float encoded);
+glm::vec3 linear_from_srgb(glm::vec3 encoded);
 
 // Tick values from low to high, at most `most`: multiples of 1, 2 or 5 times a power of ten; powers of ten on a
 // logarithmic scale.

@@ -64,7 +64,17 @@ private:
     std::size_t lines_ = 0, line_ = 0;
 };
 
-// The same vertices, groups and faces in the words that tinyobjloader reads rightly.
+[[noreturn]] void refuse_line(const std::string& name, std::size_t line, const std::string& reason) {
+    throw FileError(name + ": line " + std::to_string(line) + ": " + reason);
+}
+
+std::string_view checked_start(std::string_view bytes, const std::string& name) {
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+        throw FileError(name + ": is UTF-16 text; write it as ASCII or UTF-8");
+    return bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);  // a byte order mark
+}
+
+// The same vertices, groups and faces in the words that tinyobjloader reads rightly. A group has its line as its name.
 class ObjText {
 public:
     ObjText(std::string_view bytes, const std::string& name) : statements_(bytes), name_(name) {}
@@ -77,17 +87,25 @@ public:
             else if (keyword == "f" || keyword == "fo")  // fo: a face, in the format's earlier text
                 add_face();
             else if (keyword == "g" || keyword == "o")
-                text_ += "g " + std::to_string(statements_.line()) + "\n";
+                text_ += "g " + (group_ = std::to_string(statements_.line())) + "\n";
+            else if (keyword == "usemtl")
+                material_ = statements_.word();
+            else if (keyword == "mtllib")
+                for (std::string_view word = statements_.word(); !word.empty(); word = statements_.word())
+                    libraries_.emplace_back(word);
         }
         for (const auto& [index, line] : ahead_)
             if (index > vertices_) refuse_index(line, index);
         return std::move(text_);
     }
+    std::vector<std::string>& libraries() { return libraries_; }
+    std::string material(const std::string& group) const {
+        const auto known = materials_.find(group);
+        return known == materials_.end() ? "" : known->second;
+    }
 
 private:
-    [[noreturn]] void refuse(std::size_t line, const std::string& reason) const {
-        throw FileError(name_ + ": line " + std::to_string(line) + ": " + reason);
-    }
+    [[noreturn]] void refuse(std::size_t line, const std::string& reason) const { refuse_line(name_, line, reason); }
     [[noreturn]] void refuse_index(std::size_t line, long long index) const {
         refuse(line, "a face has vertex " + std::to_string(index) + " of " + std::to_string(vertices_));
     }
@@ -131,12 +149,16 @@ private:
             if (index > vertices_) ahead_.emplace_back(index, statements_.line());
             face += " " + std::to_string(index);
         }
-        if (corners >= 3) text_ += face + "\n";  // fewer have no area
+        if (corners < 3) return;  // it has no area
+        text_ += face + "\n";
+        materials_.try_emplace(group_, material_);
     }
 
     ObjStatements statements_;
     const std::string& name_;
-    std::string text_;
+    std::string text_, group_, material_;
+    std::vector<std::string> libraries_;
+    std::map<std::string, std::string> materials_;  // of the first face of each group
     long long vertices_ = 0;
     std::vector<std::pair<long long, std::size_t>> ahead_;  // indices of vertices that come later, with their lines
 };
@@ -144,13 +166,11 @@ private:
 }  // namespace
 
 MeshFile mesh_of_obj(std::string_view bytes, const std::string& name) {
-    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
-        throw FileError(name + ": is UTF-16 text; write it as ASCII or UTF-8");
-    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // a byte order mark
+    ObjText text(checked_start(bytes, name), name);
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;
     tinyobj::ObjReader reader;
-    if (!reader.ParseFromString(ObjText(bytes, name).plain(), "", config))
+    if (!reader.ParseFromString(text.plain(), "", config))
         throw FileError(name + ": not an OBJ file: " + reader.Error().substr(0, reader.Error().find('\n')));
     MeshFile mesh;
     const auto& numbers = reader.GetAttrib().vertices;
@@ -158,7 +178,10 @@ MeshFile mesh_of_obj(std::string_view bytes, const std::string& name) {
         mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     for (const tinyobj::shape_t& shape : reader.GetShapes()) {
         const auto& indices = shape.mesh.indices;
-        if (indices.size() > 2) mesh.groups.push_back(mesh.triangles.size());
+        if (indices.size() > 2) {
+            mesh.groups.push_back(mesh.triangles.size());
+            mesh.materials.push_back(text.material(shape.name));
+        }
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             glm::uvec3 triangle;
             for (std::size_t k = 0; k < 3; ++k)
@@ -166,7 +189,32 @@ MeshFile mesh_of_obj(std::string_view bytes, const std::string& name) {
             mesh.triangles.push_back(triangle);
         }
     }
+    mesh.libraries = std::move(text.libraries());
     return mesh;
+}
+
+std::map<std::string, glm::vec3> colors_of_mtl(std::string_view bytes, const std::string& name) {
+    std::map<std::string, glm::vec3> colors;
+    std::string material;
+    for (ObjStatements statements(checked_start(bytes, name)); statements.next();) {
+        const std::string_view keyword = statements.word();
+        if (keyword == "newmtl") material = statements.word();
+        if (keyword != "Kd") continue;
+        std::string_view word = statements.word();
+        if (word == "spectral" || word == "xyz") continue;  // not as red, green and blue
+        glm::vec3 color{0};
+        for (int k = 0; k < 3; ++k, word = statements.word()) {
+            const std::optional<float> level = finite_number(word);
+            if (k > 0 && word.empty())
+                color[k] = color.r;  // the format's rule
+            else if (level)
+                color[k] = glm::clamp(*level, 0.0f, 1.0f);
+            else
+                refuse_line(name, statements.line(), "\"Kd\" needs three finite numbers");
+        }
+        colors.try_emplace(material, color);
+    }
+    return colors;
 }
 
 }  // namespace scree::host

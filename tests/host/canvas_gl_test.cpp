@@ -99,6 +99,36 @@ TEST_CASE("gl: without background a picture is clear but for bodies, and for sha
     CHECK(darkest < 255);
 }
 
+TEST_CASE("gl: before a backdrop a picture is opaque, and what is transparent without background lies over it", "[canvas][gl]") {
+    const Bodies bodies;
+    CanvasOptions options = small();
+    options.background = false;
+    options.legend = false;
+    const auto drawn = [&] {
+        const std::unique_ptr<Canvas> canvas = make_gl_canvas(bodies.shapes, options);
+        canvas->set_tables(bodies.tables());
+        return canvas->draw({.eye = {0, 4, 10}, .target = {0, 2, 0}}, {}, "", vec3(-4, 0, -4), vec3(4));
+    };
+    const Image clear = drawn();
+    options.backdrop = linear_from_srgb(vec3(255, 128, 51) / 255.0f);
+    const Image before = drawn();
+    const std::array<int, 3> levels{255, 128, 51};
+    std::array<int, 3> seen{};  // clear, covered, between
+    for (std::size_t i = 0; i < clear.rgba.size(); i += 4) {
+        const int alpha = clear.rgba[i + 3];
+        ++seen[alpha == 0 ? 0 : alpha == 255 ? 1 : 2];
+        if (before.rgba[i + 3] != 255) FAIL("a pixel is transparent");
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float light =
+                light_at(clear, i + k) + (1 - static_cast<float>(alpha) / 255) * (*options.backdrop)[static_cast<int>(k)];
+            const int level = before.rgba[i + k];
+            if (alpha == 0 ? level != levels[k] : std::abs(level - srgb_byte(light)) > 3)
+                FAIL(level << " of " << srgb_byte(light));
+        }
+    }
+    for (const int pixels : seen) CHECK(pixels > 100);
+}
+
 TEST_CASE("gl: the same state gives the same pixels, on this canvas and on another, from this thread and from another",
           "[canvas][gl]") {
     const int samples = GENERATE(1, 4);

@@ -320,6 +320,41 @@ TEST_CASE("imports: what is wrong with a URDF is refused with its line") {
     CHECK(file.refusal("r.xml", "<robot name='r'><link name='a'/></robot>").empty());
 }
 
+TEST_CASE("imports: a body takes the colour of its OBJ file's material, and does without if the library cannot be read") {
+    Case file;
+    const std::string corners = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+                      faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    file.write("a.mtl", "newmtl red\nKa 1 1 1\nKd 1 0.25 0 # sRGB\nnewmtl grey\nKd 0.5\nnewmtl other\nKd spectral x.rfl\n");
+    const auto color = [&](const std::string& text) {
+        const Scene scene = file.load("a.obj", text).scene;
+        REQUIRE(scene.bodies.size() == 1);
+        return scene.bodies[0].color;
+    };
+    CHECK(color(corners + "usemtl red\n" + faces) == vec3(1, 0.25f, 0));
+    CHECK(color(corners + "usemtl grey\nf 1 2\ng a\nusemtl red\n" + faces) == vec3(1, 0.25f, 0));
+    CHECK(color(corners + "g a\nusemtl grey\n" + faces) == vec3(0.5f));
+    CHECK_FALSE(file.noted("colours"));
+    for (const std::string none : {"", "usemtl other\n", "usemtl missing\n"}) CHECK_FALSE(color(corners + none + faces));
+    CHECK_FALSE(color("mtllib none.mtl\n" + corners + "usemtl other\n" + faces));
+    CHECK(file.noted("has no colours: "));
+    CHECK(file.noted("none.mtl"));
+    file.write("a.mtl", "newmtl red\nKd 1 x 0\n");
+    CHECK_FALSE(color(corners + "usemtl red\n" + faces));
+    CHECK(file.noted("a.mtl: line 2: \"Kd\" needs three finite numbers"));
+
+    // Drawn meshes of a robot bring theirs, which what collides takes; its own material comes before.
+    file.write("a.mtl", "newmtl red\nKd 1 0.25 0\n");
+    file.write("part.obj", corners + "usemtl red\n" + faces);
+    const auto link = [&](const std::string& material) {
+        const std::string mesh = "<geometry><mesh filename='part.obj'/></geometry>";
+        return file.load("r.urdf", "<robot name='r'><link name='a'><visual>" + mesh + material + "</visual><collision>" + mesh +
+                                       "</collision></link></robot>");
+    };
+    for (const Body& body : link("").scene.bodies) CHECK(body.color == vec3(1, 0.25f, 0));
+    for (const Body& body : link("<material name='m'><color rgba='0 0 1 1'/></material>").scene.bodies)
+        CHECK(body.color == vec3(0, 0, 1));
+}
+
 TEST_CASE("imports: an OBJ file's groups are convex parts, an STL file one body") {
     Case file;
     const std::string faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", later = "f 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";

@@ -521,6 +521,37 @@ TEST_CASE("program: without background frames are transparent, on both canvases,
     require_refused("stack --background red --frames '" + (place / "g").string() + "'", {"--background", "red", "none"});
 }
 
+TEST_CASE("program: before a solid background frames are opaque, on both canvases, and have exactly its colour", "[program]") {
+    const Place place;
+    const std::string canvas = GENERATE("gl", "vulkan");
+    for (const std::string bits : {"", "--samples 4 ", "--png-depth 16 "}) {
+        if (canvas == "gl" && bits.starts_with("--png")) continue;  // it draws 8 bits
+        const Outcome run = run_scree("run stack --background '#ff8033' --frame-at 0.1 --no-legend --no-caption " + small + bits +
+                                      "--canvas " + canvas + " --quiet --frames '" + (place / ("f" + bits)).string() + "'");
+        INFO(bits << run.errors);
+        if (canvas == "vulkan" && run.status != 0) return;  // a build or machine without Vulkan
+        REQUIRE(run.status == 0);
+        const scree::host::Image image = scree::host::read_png(place / ("f" + bits) / "frame_000000.png");
+        const std::size_t size = image.bits == 16 ? 2 : 1;
+        std::size_t exact = 0, opaque = 0;
+        for (std::size_t i = 0; i + 4 * size <= image.rgba.size(); i += 4 * size) {
+            const auto level = [&](std::size_t k) {  // of 255
+                return size == 1 ? int{image.rgba[i + k]} : (image.rgba[i + 2 * k] + 256 * image.rgba[i + 2 * k + 1] + 128) / 257;
+            };
+            exact += level(0) == 0xff && level(1) == 0x80 && level(2) == 0x33 ? 1 : 0;
+            opaque += level(3) == 255 ? 1 : 0;
+        }
+        const std::size_t pixels = image.rgba.size() / 4 / size;
+        CHECK(opaque == pixels);
+        CHECK(exact > pixels / 4);
+        CHECK(exact < pixels * 99 / 100);
+    }
+    CHECK(picture_of("stack --steps 6 --background '#f83' " + small) ==
+          picture_of("stack --steps 6 --background '#FF8833' " + small));
+    require_refused("stack --background '#ff80' --frames '" + (place / "g").string() + "'",
+                    {"--background", "'#ff80'", "'#rrggbb'"});
+}
+
 TEST_CASE("program: EXR frames have channels as layers, which other programs read", "[program]") {
     const Place place;
     const std::string to = " --frames '" + (place / "f").string() + "'";

@@ -7,7 +7,6 @@
 
 #include "compute/scene/hull.h"
 #include "host/files/file.h"
-#include "host/files/mesh_file.h"
 
 namespace scree::imports {
 
@@ -61,6 +60,7 @@ MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::u
         const std::size_t end = g + 1 < groups.size() ? groups[g + 1] : triangles.size();
         try {
             solid.hulls.push_back(corners_of_group(vertices, triangles, groups[g], end));
+            solid.groups.push_back(g);
             of_hulls = sum_of(of_hulls, hull_mass(solid.hulls.back()));
         } catch (const HullError& error) {
             solid.flaw = error.what();
@@ -132,6 +132,23 @@ std::string Folder::bytes(const Origin& at, const std::string& name) {
     }
 }
 
+// Of the materials of an OBJ file. Libraries that cannot be read take their colours with them, and nothing else.
+void Folder::give_colors(const std::string& path, const host::MeshFile& file, MeshSolid& solid) {
+    std::map<std::string, vec3> colors;
+    for (const std::string& library : file.libraries) {
+        const fs::path beside = fs::path(path).parent_path() / library;
+        try {
+            colors.merge(host::colors_of_mtl(bytes({path, 0, ""}, beside.string()), beside.string()));
+        } catch (const std::runtime_error& error) {
+            solid.lost_colors = error.what();
+        }
+    }
+    for (const std::size_t group : solid.groups) {
+        const auto known = group < file.materials.size() ? colors.find(file.materials[group]) : colors.end();
+        solid.colors.push_back(known == colors.end() ? std::nullopt : std::optional(known->second));
+    }
+}
+
 std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::string& name, const MeshMap& map, bool groups) {
     const std::string path = path_of(at, name);
     std::shared_ptr<const MeshSolid>& made = meshes_[{path, map, groups}];
@@ -145,7 +162,9 @@ std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::strin
         map_mesh(map, file.vertices, file.triangles);
         if (!groups || file.groups.empty()) file.groups = {0};
         if (file.groups.size() > most_groups) refuse(at, "\"" + name + "\" has more than 10000 groups");
-        made = std::make_shared<MeshSolid>(mesh_solid(file.vertices, file.triangles, file.groups));
+        MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups);
+        if (groups) give_colors(path, file, solid);
+        made = std::make_shared<MeshSolid>(std::move(solid));
     } catch (const host::FileError& error) {
         refuse(at, error.what());
     }

@@ -13,6 +13,7 @@
 #include "compute/scene_file/import/import_options.h"
 #include "compute/scene_file/import/notes.h"
 #include "compute/scene_file/import/solid_mass.h"
+#include "host/files/mesh_file.h"
 
 namespace scree::imports {
 
@@ -28,10 +29,13 @@ void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::
 
 // The convex hull of a mesh, or of each of its groups, and the mass properties of the mesh.
 struct MeshSolid {
-    std::vector<std::vector<vec3>> hulls;  // corners of each, m; none: the mesh is flat
-    std::string flaw;                      // why there is none
-    SolidMass mass;                        // of what the triangles enclose, density 1; of the hulls if they enclose nothing
-    bool encloses = true;                  // whether the triangles do
+    std::vector<std::vector<vec3>> hulls;     // corners of each, m; none: the mesh is flat
+    std::vector<std::size_t> groups;          // of the mesh, that the hulls are of
+    std::vector<std::optional<vec3>> colors;  // of the hulls, sRGB; of folder.mesh() with groups alone
+    std::string lost_colors;                  // why some are not known
+    std::string flaw;                         // why there is none
+    SolidMass mass;                           // of what the triangles enclose, density 1; of the hulls if they enclose nothing
+    bool encloses = true;                     // whether the triangles do
 };
 
 // With symbolic links followed, as far as it exists.
@@ -47,12 +51,13 @@ public:
     // Bytes of a file that `at` names, and the name to show. Refused outside the folders that may be read.
     std::string bytes(const Origin& at, const std::string& name);
     std::string path_of(const Origin& at, const std::string& name);
-    // A mesh; of an OBJ file with groups, one hull for each if `groups`. Cached.
+    // A mesh; of an OBJ file with groups, one hull for each if `groups`, with colours. Cached.
     std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const MeshMap& map = {},
                                           bool groups = false);
 
 private:
     std::filesystem::path resolved(const Origin& at, const std::string& name);
+    void give_colors(const std::string& path, const host::MeshFile& file, MeshSolid& solid);
     std::optional<std::filesystem::path> package(const Origin& at, const std::string& name);
 
     std::string shown_;

@@ -20,10 +20,12 @@ SceneDocument scene_of_mesh(const std::string& name, Folder& folder, const Impor
     body.free = true;
     constexpr double density = 1000;  // as of a scene's bodies
     body.mass = scaled_mass(solid->mass, density);
-    for (const auto& corners : solid->hulls) {
+    if (!solid->lost_colors.empty()) notes.add(at, "", "has no colours: " + solid->lost_colors);
+    for (std::size_t i = 0; i < solid->hulls.size(); ++i) {
         Geometry one;
         one.origin = at;
-        one.shape = Hull{corners};
+        one.shape = Hull{solid->hulls[i]};
+        one.color = solid->colors[i];
         body.geometries.push_back(std::move(one));
     }
     if (solid->hulls.size() == 1)

@@ -120,10 +120,12 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
     mesh.note("", like.solid ? "collides as the convex hull of each of its groups"
                              : "is drawn as the convex hull of each of its groups");
     if (like.solid) body.mass_of_shapes = sum_of(body.mass_of_shapes, placed_mass(scaled_mass(solid->mass, usual_density), at));
-    for (const auto& corners : solid->hulls) {
+    if (!like.solid && !like.color && !solid->lost_colors.empty()) mesh.note("filename", "has no colours: " + solid->lost_colors);
+    for (std::size_t i = 0; i < solid->hulls.size(); ++i) {
         Geometry one = like;
-        one.shape = Hull{corners};
+        one.shape = Hull{solid->hulls[i]};
         one.placed = at;
+        if (!like.solid && !one.color) one.color = solid->colors[i];
         body.geometries.push_back(std::move(one));
     }
     return true;

@@ -82,7 +82,7 @@ struct PictureOptions {
     std::optional<std::vector<std::string>> show;  // overlays, or "none"
     std::optional<std::string> sky;
     std::optional<std::pair<float, float>> sun;  // azimuth and elevation, degrees
-    std::string background = "sky";              // or none: transparent
+    std::string background = "sky";              // or none: transparent, or #rrggbb, or #rgb
     float shutter = 0;                           // of motion blur: part of the time between pictures, 0: none
     int shutter_samples = 8;                     // pictures that are averaged
     bool legend = true, caption = true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "compute/scene_file/hex_color.h"
 #include "demos/film/channels.h"
 #include "demos/film/style.h"
 #include "demos/program/exit_status.h"
@@ -296,8 +297,12 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option(
             "--background", options.background,
             "sky, or none: frames are transparent but for bodies, overlays, legend and caption. Planes leave the shadows on "
-            "them, black and as opaque as they are dark; there is no haze. Default: sky.")
-        ->check(one_of({"sky", "none"}))
+            "them, black and as opaque as they are dark; there is no haze. Or a colour to lay the same over, #rrggbb or #rgb "
+            "(quoted in a shell). Default: sky.")
+        ->check([](const std::string& word) {
+            if (word == "sky" || word == "none" || color_of_hex(word)) return std::string();
+            return fmt::format("must be sky, none or a colour in hexadecimal digits, '#rrggbb' or '#rgb'; is '{}'", word);
+        })
         ->group(group);
     command
         .add_option_function<std::string>("--sun", Set([&options](const std::string& word) { set_sun(options, word); }),

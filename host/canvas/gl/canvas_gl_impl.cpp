@@ -58,10 +58,11 @@ void GlCanvas::Impl::make_state() {
     gl.glEnable(GL_DEPTH_TEST);
     // Before a background keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges
     // in alpha.
-    const bool covers = !options.background;
+    const bool covers = !options.background && !options.backdrop;
     gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, covers ? GL_ONE : GL_ZERO,
                            covers ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
-    gl.glClearColor(0, 0, 0, 0);
+    const vec4 clear = clear_color(options);
+    gl.glClearColor(clear.r, clear.g, clear.b, clear.a);
     gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.glPixelStorei(GL_PACK_ALIGNMENT, 1);
 }

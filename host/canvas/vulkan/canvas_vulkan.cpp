@@ -115,7 +115,9 @@ void VulkanCanvas::Impl::draw_shadows(std::size_t light) {
 
 void VulkanCanvas::Impl::draw_picture(std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
-    std::array<VkClearValue, 2> clear{};  // black; reversed depth: 0 is infinitely far
+    std::array<VkClearValue, 2> clear{};  // reversed depth: 0 is infinitely far
+    const vec4 color = clear_color(options);
+    for (int k = 0; k < 4; ++k) clear[0].color.float32[k] = color[k];
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = picture_pass;

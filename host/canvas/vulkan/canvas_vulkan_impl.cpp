@@ -122,7 +122,8 @@ void VulkanCanvas::Impl::make_pipelines() {
             pipelines.push_back(pipelines[at]);
             continue;
         }
-        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height, !options.background};
+        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height,
+                           !options.background && !options.backdrop};
         if (state.pass == Pass::sun_map || state.pass == Pass::sky_map) {
             shape.pass = shadow_pass;
             shape.samples = 1;
