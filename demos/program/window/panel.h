@@ -72,6 +72,7 @@ private:
     void show_selected(Session& session, Interaction& interaction);
     void show_vehicle(Session& session, Interaction& interaction);
     void show_graphs(Session& session, Interaction& interaction, const Rates& rates);
+    void show_compared(const Session& session, std::optional<std::size_t> selected);
     void write_graphs(const Session& session);
     // panel_overlay.cpp
     void show_messages(const Interaction& interaction) const;
@@ -92,7 +93,9 @@ private:
     std::optional<std::size_t> hovered_;  // body under the pointer, and what is said of it; updated likewise
     std::string hovered_text_;
     double hovered_at_ = -1;
-    History history_;
+    History history_, compared_history_;  // of the selected body or the world; of the body that it is compared with
+    std::optional<std::size_t> compared_;
+    std::string compared_scene_;      // its title
     std::optional<int> wanted_step_;  // of the timeline, while it is dragged
     std::string told_;
     double told_at_ = 0;  // s of Dear ImGui's clock
