@@ -122,8 +122,9 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     }
     // Of a plane, what shadows may reach is shaded with them, and all else, most of the ground, without: software devices
     // cannot skip the reads of the maps pixel by pixel.
-    const char* near = options.background ? "plane.frag" : "plane_shadow.frag";
-    if (options.shadows) draws.push_back({body("plane.vert", near, Cull::none), Items::planes, Mesh::none, 6, 0, 1});
+    DrawState near = body("plane.vert", options.background ? "plane.frag" : "plane_shadow.frag", Cull::none);
+    near.blends = !options.background;
+    if (options.shadows) draws.push_back({near, Items::planes, Mesh::none, 6, 0, 1});
     if (options.background) {
         draws.push_back({body("plane.vert", "plane_far.frag", Cull::none), Items::planes, Mesh::none, 12});
         draws.push_back(

@@ -77,14 +77,15 @@ TEST_CASE("gl: a box is drawn where it is, its upper side up", "[canvas][gl]") {
 
 TEST_CASE("gl: without background a picture is clear but for bodies, and for shadows as opaque as they are dark",
           "[canvas][gl]") {
-    const Bodies bodies;
+    Bodies bodies;
     CanvasOptions options = small();
     options.background = false;
     options.legend = false;
     options.toward_sun = {-1, 1, 0};
     const std::unique_ptr<Canvas> canvas = make_gl_canvas(bodies.shapes, options);
     canvas->set_tables(bodies.tables());
-    const Image image = canvas->draw({.eye = {0, 4, 10}, .target = {0, 2, 0}}, {}, "", vec3(-4, 0, -4), vec3(4));
+    const auto drawn = [&] { return canvas->draw({.eye = {0, 4, 10}, .target = {0, 2, 0}}, {}, "", vec3(-4, 0, -4), vec3(4)); };
+    Image image = drawn();
     const auto alpha = [&](int x, int y) { return int{image.rgba[4 * static_cast<std::size_t>(y * image.width + x) + 3]}; };
     CHECK(alpha(80, 5) == 0);
     CHECK(alpha(80, 50) == 255);
@@ -97,6 +98,9 @@ TEST_CASE("gl: without background a picture is clear but for bodies, and for sha
     }
     CHECK(darkest > 100);
     CHECK(darkest < 255);
+    bodies.poses[1].position.x = 100;  // the next picture has nothing of this one
+    image = drawn();
+    CHECK(alpha(80, 50) == 0);
 }
 
 TEST_CASE("gl: before a backdrop a picture is opaque, and what is transparent without background lies over it", "[canvas][gl]") {
