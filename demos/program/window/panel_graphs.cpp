@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "demos/program/options/units.h"
 #include "demos/program/window/panel.h"
@@ -67,11 +68,11 @@ void plot_curves(const char* name, const char* unit, const std::vector<Curve>& c
     ImGui::Dummy(ImVec2(right - corner.x, bottom + below - corner.y));
     if (!ImGui::IsItemHovered()) return;
     const float pointed = first + (last - first) * (ImGui::GetIO().MousePos.x - left) / (right - left);
-    std::string told = fmt::format("{:.2f} s", pointed);
+    std::string told = fmt::format("{:.2f} s", pointed), separator = ": ";
     for (const Curve& curve : curves) {
         const auto at = std::lower_bound(curve.times.begin(), curve.times.end(), pointed);
         const auto i = std::min<std::ptrdiff_t>(at - curve.times.begin(), std::ssize(curve.times) - 1);
-        told += ": " + with_unit(curve.values[static_cast<std::size_t>(i)], unit);
+        told += std::exchange(separator, ", ") + with_unit(curve.values[static_cast<std::size_t>(i)], unit);
     }
     show_tooltip(told);
 }
