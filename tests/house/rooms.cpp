@@ -169,7 +169,8 @@ TEST_CASE("house: every file opens with a sentence that says what it is", "[hous
         const bool hash = file.ends_with(".txt") || file.ends_with(".py") || file.ends_with(".sh");
         std::getline(lines, line);
         if (begins(line, "#!")) std::getline(lines, line);
-        for (; begins(line, hash ? "# " : "// "); std::getline(lines, line)) comment += line + " ";
+        const bool c = begins(line, "/* ");  // of headers and programs in C
+        for (; begins(line, hash ? "# " : c ? "/* " : "// "); std::getline(lines, line)) comment += line + " ";
         if (comment.find_first_of(".:") == std::string::npos) FAIL_CHECK(at(file, 1, "opens with no sentence"));
     }
     SUCCEED();

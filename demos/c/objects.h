@@ -1,0 +1,150 @@
+// What handles of the C interface name, and how calls get at it.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "compute/scene_file/events.h"
+#include "compute/scene_file/scene_json.h"
+#include "compute/world.h"
+#include "demos/c/call.h"
+#include "demos/c/handles.h"
+#include "demos/film/drawing.h"
+#include "demos/program/backend.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/program/outputs/export_file.h"
+
+namespace scree::c {
+
+struct SceneObject {
+    SceneDocument document;
+    std::vector<std::string> notes;  // what was changed or left out in reading it
+    mutable std::shared_mutex in_use;
+};
+
+// A canvas and what it was made for.
+struct Easel {
+    host::CanvasOptions options;
+    std::string canvas;  // auto, vulkan or gl
+    std::optional<std::size_t> copy;
+    std::unique_ptr<demos::Drawing> drawing;
+};
+
+struct WorldObject {
+    WorldObject(const SceneDocument& document, World made, const demos::Backend& backend)
+        : machine(backend),
+          shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
+          world(std::move(made)) {}
+
+    demos::Backend machine;
+    SceneDocument shown;  // how it is run and shown; without the scene, which the world has
+    World world;
+    std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
+    std::vector<Easel> easels;
+    std::vector<std::shared_ptr<demos::Animation>> exports;  // being recorded
+    std::atomic<std::size_t> views = 0;                      // that look into its tables
+    std::shared_mutex in_use;
+
+    const demos::LoadedScene& as_subject();
+    void require_no_views(const char* what) const;  // throws Failure
+};
+
+struct ViewObject {
+    std::shared_ptr<WorldObject> world;
+};
+struct ExportObject {
+    std::shared_ptr<WorldObject> world;
+    std::shared_ptr<demos::Animation> file;
+};
+
+// What a handle names, in use by this call. Throws Failure for a handle that names nothing, and while another thread is in it.
+template <class Handle>
+class Use {
+public:
+    explicit Use(Handle* handle) : object_(object_of(handle)) {
+        if constexpr (std::is_const_v<Handle>)
+            shared_ = std::shared_lock(object_->in_use, std::try_to_lock);
+        else
+            alone_ = std::unique_lock(object_->in_use, std::try_to_lock);
+        if (!shared_.owns_lock() && !alone_.owns_lock())
+            throw Failure(SCREE_BUSY, "another thread is in the handle's scene or world");
+    }
+    auto& operator*() const { return *object_; }
+    auto* operator->() const { return object_.get(); }
+    const auto& shared() const { return object_; }
+
+private:
+    using Object = typename decltype(object_of(std::declval<Handle*>()))::element_type;
+    std::shared_ptr<Object> object_;
+    std::shared_lock<std::shared_mutex> shared_;
+    std::unique_lock<std::shared_mutex> alone_;
+};
+using UsedScene = Use<scree_scene>;
+using ReadScene = Use<const scree_scene>;
+using UsedWorld = Use<scree_world>;
+
+// "all" for SCREE_ALL_COPIES; throws Failure for a copy that is not there.
+std::optional<std::size_t> copy_of(const World& world, std::size_t copy);
+
+// Throws Failure naming the body, joint or vehicle that is not there.
+std::vector<std::size_t> indices_of(const std::int64_t* given, std::size_t count, std::size_t most, const char* what);
+std::size_t index_of(std::size_t given, std::size_t most, const char* what);
+
+// Rows of the caller's columns, by name: those that are known, of so many floats a row.
+class Columns {
+public:
+    struct Known {
+        const char* name;
+        int width;
+    };
+    Columns(const scree_column* columns, std::size_t count, std::size_t rows, const std::vector<Known>& known);
+    bool has(const char* name) const { return find(name) != nullptr; }
+    float number(const char* name, std::size_t row) const;
+    vec3 three(const char* name, std::size_t row) const;
+    vec4 four(const char* name, std::size_t row) const;
+    std::optional<float> maybe_number(const char* name, std::size_t row) const;
+    std::optional<vec3> maybe_three(const char* name, std::size_t row) const;
+    std::optional<vec4> maybe_four(const char* name, std::size_t row) const;
+
+private:
+    struct Column {
+        std::string name;
+        const char* data;
+        std::size_t stride;
+    };
+    const Column* find(const char* name) const;
+    const char* row_of(const char* name, std::size_t row) const;
+    std::vector<Column> columns_;
+};
+
+// As `given`, with a stride that is not below a record's size.
+std::size_t stride_of(std::size_t given, std::size_t record, const char* name);
+
+vec3 three_of(const float* values, const char* name);  // throws Failure for null
+
+// The first two of that name.
+template <class Things>
+std::vector<std::uint64_t> first_named(const Things& things, std::size_t count, const std::string& name) {
+    std::vector<std::uint64_t> found;
+    for (std::size_t i = 0; i < count && found.size() < 2; ++i)
+        if (things[i].name == name) found.push_back(i);
+    return found;
+}
+std::string json_of_words(const std::vector<std::string>& words);
+template <class Things>
+std::string names_json(const Things& things, std::size_t count) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; ++i) names.push_back(things[i].name);
+    return json_of_words(names);
+}
+
+}  // namespace scree::c
