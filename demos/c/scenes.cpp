@@ -14,6 +14,7 @@
 #include "compute/version.h"
 #include "demos/c/json.h"
 #include "demos/c/objects.h"
+#include "demos/program/exit_status.h"
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
@@ -326,7 +327,14 @@ std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bod
             if (!demo.trial) known.push_back(demo.name);
         refuse(unknown("demo", name, known));
     }
-    const demos::LoadedScene subject = demos::load_subject(options);
+    const demos::LoadedScene subject = [&] {
+        try {
+            return demos::load_subject(options);
+        } catch (const demos::UsageError& error) {  // of the command line: "--bodies: the demo has"
+            const std::string what = error.what();
+            refuse(what.substr(what.starts_with("--") ? 2 : 0));
+        }
+    }();
     std::vector<std::string> notes;
     if (subject.before_step) notes.push_back(name + ": its scripted actions during a run are no part of the scene");
     return made_scene(demos::document_of(subject), std::move(notes));

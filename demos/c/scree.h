@@ -230,8 +230,7 @@ SCREE_API scree_result scree_world_restore(scree_world* world, const void* bytes
 SCREE_API scree_result scree_world_write_checkpoint(scree_world* world, const char* path, const char* note);
 SCREE_API scree_result scree_world_read_checkpoint(scree_world* world, const char* path, const char** note);
 SCREE_API scree_result scree_world_keep_state(scree_world* world);
-SCREE_API scree_result scree_world_roll_back(scree_world* world,
-                                             uint64_t steps); /* to the state that was kept after so many steps */
+SCREE_API scree_result scree_world_roll_back(scree_world* world, uint64_t steps);       /* back, to a kept state */
 SCREE_API scree_result scree_world_kept_states(scree_world* world, scree_array* steps); /* uint64_t */
 SCREE_API scree_result scree_world_drop_states(scree_world* world);
 /* The scene as it is now, of one copy or of all. */

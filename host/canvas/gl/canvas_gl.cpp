@@ -145,7 +145,7 @@ void GlCanvas::Impl::draw_bodies(std::uint32_t quad_count) const {
     begin(scene);
     gl.glDepthMask(GL_TRUE);
     gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the maps of shadows ended it, for clearing, too
-    gl.glClearDepthf(0);  // reversed depth: 0 is infinitely far
+    gl.glClearDepthf(0);                                 // reversed depth: 0 is infinitely far
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_all(Pass::picture, quad_count);
 }

@@ -122,8 +122,13 @@ void VulkanCanvas::Impl::make_pipelines() {
             pipelines.push_back(pipelines[at]);
             continue;
         }
-        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height,
-                           !options.background && !options.backdrop};
+        PipelineShape shape{state,
+                            picture_pass,
+                            layout,
+                            options.samples,
+                            options.width,
+                            options.height,
+                            !options.background && !options.backdrop};
         if (state.pass == Pass::sun_map || state.pass == Pass::sky_map) {
             shape.pass = shadow_pass;
             shape.samples = 1;
