@@ -73,7 +73,11 @@ scree_result told_error() noexcept {
         return tell(SCREE_BAD_INDEX, error.what());
     } catch (const std::bad_alloc&) {
         return tell(SCREE_NO_MEMORY, "there is not enough memory");
-    } catch (const std::logic_error& error) {  // invalid_argument, domain_error, length_error
+    } catch (const std::invalid_argument& error) {
+        return tell(SCREE_BAD_ARGUMENT, error.what());
+    } catch (const std::domain_error& error) {
+        return tell(SCREE_BAD_ARGUMENT, error.what());
+    } catch (const std::length_error& error) {
         return tell(SCREE_BAD_ARGUMENT, error.what());
     } catch (const nlohmann::json::exception& error) {
         return tell(SCREE_BAD_ARGUMENT, error.what());

@@ -37,6 +37,15 @@ scree_result called(Work&& work) noexcept {
     }
 }
 
+// Of calls that release, which end nothing else and tell nothing.
+template <class Work>
+void released(Work&& work) noexcept {
+    try {
+        work();
+    } catch (...) {
+    }
+}
+
 // Keeps an object until the thread's next call.
 void keep(std::shared_ptr<void> given);
 const char* kept_text(std::string text);

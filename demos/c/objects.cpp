@@ -22,7 +22,7 @@ const demos::LoadedScene& WorldObject::as_subject() {
 void WorldObject::require_no_views(const char* what) const {
     const std::size_t held = views;
     if (held == 0) return;
-    throw Failure(SCREE_BUSY, "the world cannot be " + std::string(what) + " while " + std::to_string(held) +
+    throw Failure(SCREE_VIEWED, "the world cannot be " + std::string(what) + " while " + std::to_string(held) +
                                   " views look into its tables; release them first");
 }
 

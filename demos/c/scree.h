@@ -2,16 +2,17 @@
  *
  *     scree_scene* scene;
  *     scree_world* world;
- *     if (scree_scene_demo("wall", 0, 1, &scene) || scree_world_create(scene, NULL, &world) || scree_world_step(world, 60, NULL,
- * NULL)) fprintf(stderr, "%s\n", scree_error_message());
+ *     if (scree_scene_demo("wall", 0, 1, &scene) || scree_world_create(scene, NULL, &world) ||
+ *         scree_world_step(world, 60, NULL, NULL))
+ *         fprintf(stderr, "%s\n", scree_error_message());
  *
  * Every call that can fail returns a scree_result: 0, or the kind of the error, which scree_error_message() tells in words. A
  * call that is refused changes nothing. No exception leaves the library.
  *
  * Handles (scree_scene* and the like) are numbers, not addresses. One that is null, released or of another kind is refused.
  *
- * Texts and arrays that a call gives stay until the same thread makes its next call, scree_error_message() and
- * scree_error_place() left out: copy what you keep. Texts are UTF-8. Units are SI: m, kg, s, N, rad. Quaternions are x, y, z, w.
+ * Texts and arrays that a call gives stay until the same thread makes its next call, those that release and scree_error_...()
+ * left out: copy what you keep. Texts are UTF-8. Units are SI: m, kg, s, N, rad. Quaternions are x, y, z, w.
  * Bodies, joints and vehicles are numbered from 0 in the order in which they were added.
  *
  * Structs that begin with `size` may grow: set it by SCREE_INIT, as in scree_world_options options =
@@ -54,9 +55,10 @@ typedef enum scree_result {
     SCREE_FILE_ERROR = 6,     /* cannot be read or written, or is damaged */
     SCREE_DEVICE_ERROR = 7,   /* of a graphics device or its driver */
     SCREE_NO_MEMORY = 8,
-    SCREE_BUSY = 9,       /* another thread is in it, or views look into its tables */
-    SCREE_STOPPED = 10,   /* by the progress callback */
-    SCREE_IMPOSSIBLE = 11 /* not in this state: the message says why */
+    SCREE_BUSY = 9,        /* another thread is in it */
+    SCREE_STOPPED = 10,    /* by the progress callback */
+    SCREE_IMPOSSIBLE = 11, /* not in this state: the message says why */
+    SCREE_VIEWED = 12      /* views look into the tables that it would move */
 } scree_result;
 
 /* Of the last call of this thread that failed. */
@@ -197,6 +199,8 @@ typedef struct scree_world_info {
     const char *backend, *device, *remark; /* "cpu" or "vulkan"; its name; why another than asked for was taken, or "" */
 } scree_world_info;
 SCREE_API scree_result scree_world_get_info(scree_world* world, scree_world_info* info);
+/* list: "bodies", "bodies_there", "joints", "vehicles", "copies", as in scree_world_info. */
+SCREE_API scree_result scree_world_count(scree_world* world, const char* list, size_t* count);
 /* key: "settings"; "stage_times": milliseconds of the last step by stage, while "profiling" is set; names of "bodies" or "joints"
  * of one copy. */
 SCREE_API scree_result scree_world_get(scree_world* world, const char* key, const char** json);

@@ -168,7 +168,7 @@ using namespace scree;
 using namespace scree::c;
 
 void scree_close_devices(void) {
-    called([] {
+    released([] {
         Backends& all = backends();
         const std::lock_guard lock(all.mutex);
         all.opened.clear();
@@ -203,7 +203,7 @@ scree_result scree_world_create_copies(const scree_scene* const* scenes, size_t 
 void scree_world_release(scree_world* world) {
     const std::shared_ptr<void> object = ended(HandleKind::world, world);
     if (!object) return;
-    called([&] {
+    released([&] {
         WorldObject& of = *static_cast<WorldObject*>(object.get());
         const std::unique_lock lock(of.in_use);  // a step of another thread ends first
         of.easels.clear();
@@ -236,6 +236,27 @@ scree_result scree_world_get_info(scree_world* world, scree_world_info* info) {
         made.device = kept_text(of.runner().device());
         made.remark = kept_text(used->machine.remark);
         fill(info, made, "info");
+    });
+}
+
+scree_result scree_world_count(scree_world* world, const char* list, size_t* count) {
+    return called([&] {
+        given(count, "count");
+        const UsedWorld used(world);
+        const World& of = used->world;
+        const std::string asked = text_of(list, "list");
+        if (asked == "bodies")
+            *count = of.scene().bodies.size();
+        else if (asked == "bodies_there")
+            *count = of.bodies_there();
+        else if (asked == "joints")
+            *count = of.scene().joints.size();
+        else if (asked == "vehicles")
+            *count = of.scene().vehicles.size();
+        else if (asked == "copies")
+            *count = of.copies();
+        else
+            refuse(unknown("list", asked, {"bodies", "bodies_there", "joints", "vehicles", "copies"}));
     });
 }
 

@@ -165,11 +165,11 @@ class Scene(Bodies[_native.Description]):
         position: (3,), on the ground between its wheels, m; heading: rad, about y, 0 along z.
         name, speed (m/s), size, density, friction, brake, hertz, damping_ratio: see Car in compute/vehicle_presets.h.
         """
-        return self._native.add_car({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields})
+        return self._native.add_car(json_text({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields}, "/cars"))
 
     def add_cart(self, position: Vector = (0.0, 0.0, 0.0), heading: float = 0.0, **fields: Any) -> int:
         """Adds a cart that steers like a tank, and returns the vehicle's index. As add_car; name, friction, brake."""
-        return self._native.add_cart({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields})
+        return self._native.add_cart(json_text({"position": triple(position, "position"), "heading": number(heading, "heading"), **fields}, "/carts"))
 
     def add_vehicle(self, **fields: Any) -> int:
         """Makes a vehicle of bodies and joints: chassis, wheels, engine, steering, route, loops, as in a scene file."""
@@ -221,7 +221,7 @@ class Scene(Bodies[_native.Description]):
     @property
     def camera(self) -> Optional[Camera]:
         """The camera suggested by the scene, if any."""
-        given = json.loads(self._native.camera()).get("camera")
+        given = self._native.camera()
         if given is None:
             return None
         if given.get("path"):
