@@ -25,31 +25,37 @@ std::vector<std::size_t> bodies_of(const World& world, const std::int64_t* bodie
 struct Writer {
     const char* name;
     std::size_t bytes;  // of a row
-    std::function<void(std::size_t row, char* to)> write;
+    std::function<void(char* to, std::size_t stride)> write;
 };
+
+// Of a value of each row.
+template <class Of>
+Writer writer(const char* name, std::size_t rows, Of of) {
+    using Value = decltype(of(std::size_t{0}));
+    return {name, sizeof(Value), [rows, of](char* to, std::size_t stride) {
+                for (std::size_t row = 0; row < rows; ++row) {
+                    const Value value = of(row);
+                    std::memcpy(to + row * stride, &value, sizeof value);
+                }
+            }};
+}
 
 void write_outputs(const scree_output* outputs, std::size_t output_count, std::size_t rows, const std::vector<Writer>& writers) {
     given_array(outputs, output_count, "outputs");
-    Names names;
-    for (const Writer& writer : writers) names.emplace_back(writer.name);
     std::vector<std::pair<const Writer*, std::size_t>> wanted;  // with strides
     for (std::size_t i = 0; i < output_count; ++i) {
         const std::string name = text_of(outputs[i].name, "the name of an output");
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end()) refuse(unknown("output", name, names));
-        const Writer& writer = writers[static_cast<std::size_t>(at - names.begin())];
-        given_array(outputs[i].data, rows, writer.name);
-        wanted.emplace_back(&writer,
-                            outputs[i].stride == 0 ? writer.bytes : stride_of(outputs[i].stride, writer.bytes, writer.name));
+        const auto at = std::find_if(writers.begin(), writers.end(), [&](const Writer& one) { return one.name == name; });
+        if (at == writers.end()) {
+            Names names;
+            for (const Writer& one : writers) names.emplace_back(one.name);
+            refuse(unknown("output", name, names));
+        }
+        const Writer& one = *at;
+        given_array(outputs[i].data, rows, one.name);
+        wanted.emplace_back(&one, outputs[i].stride == 0 ? one.bytes : stride_of(outputs[i].stride, one.bytes, one.name));
     }
-    for (std::size_t i = 0; i < output_count; ++i)
-        for (std::size_t row = 0; row < rows; ++row)
-            wanted[i].first->write(row, static_cast<char*>(outputs[i].data) + row * wanted[i].second);
-}
-
-template <class Value>
-void put(char* to, const Value& value) {
-    std::memcpy(to, &value, sizeof value);
+    for (std::size_t i = 0; i < output_count; ++i) wanted[i].first->write(static_cast<char*>(outputs[i].data), wanted[i].second);
 }
 
 // ---- Handles of bodies
@@ -66,22 +72,26 @@ std::vector<BodyHandle> body_handles(const scree_body* bodies, std::size_t count
 
 // Checks all before any is applied.
 void apply(World& world, const std::vector<std::size_t>& bodies, const Columns& given) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        for (const char* name : {"force", "torque", "impulse", "angular_impulse", "offset"}) {
-            const std::optional<vec3> value = given.maybe_three(name, i);
-            if (value && !(std::isfinite(value->x) && std::isfinite(value->y) && std::isfinite(value->z)))
+    const Rows force = given["force"], torque = given["torque"], impulse = given["impulse"], turn = given["angular_impulse"],
+               offset = given["offset"];
+    const std::pair<const Rows&, const char*> all[] = {
+        {force, "force"}, {torque, "torque"}, {impulse, "impulse"}, {turn, "angular_impulse"}, {offset, "offset"}};
+    for (const auto& [rows, name] : all)
+        for (std::size_t i = 0; rows && i < bodies.size(); ++i) {
+            const vec3 value = rows.at<vec3>(i);
+            if (!(std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z)))
                 refuse("body " + std::to_string(bodies[i]) + ": the " + name + " is not finite");
         }
-        world.handle_of(bodies[i]);
-        if (world.scene().bodies[bodies[i]].motion != Motion::dynamic)
-            refuse("body " + std::to_string(bodies[i]) + " is not dynamic");
+    for (const std::size_t body : bodies) {
+        world.handle_of(body);
+        if (world.scene().bodies[body].motion != Motion::dynamic) refuse("body " + std::to_string(body) + " is not dynamic");
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const vec3 at = given.maybe_three("offset", i).value_or(vec3(0));
-        if (const auto force = given.maybe_three("force", i)) world.apply_force(bodies[i], *force, at);
-        if (const auto torque = given.maybe_three("torque", i)) world.apply_torque(bodies[i], *torque);
-        if (const auto impulse = given.maybe_three("impulse", i)) world.apply_impulse(bodies[i], *impulse, at);
-        if (const auto impulse = given.maybe_three("angular_impulse", i)) world.apply_angular_impulse(bodies[i], *impulse);
+        const vec3 at = offset ? offset.at<vec3>(i) : vec3(0);
+        if (force) world.apply_force(bodies[i], force.at<vec3>(i), at);
+        if (torque) world.apply_torque(bodies[i], torque.at<vec3>(i));
+        if (impulse) world.apply_impulse(bodies[i], impulse.at<vec3>(i), at);
+        if (turn) world.apply_angular_impulse(bodies[i], turn.at<vec3>(i));
     }
 }
 
@@ -118,14 +128,15 @@ scree_result scree_world_read(scree_world* world, const scree_output* outputs, s
             refuse("count: the memory has " + std::to_string(count) + " rows, and the world " + std::to_string(bodies.size()) +
                    " bodies");
         const std::vector<Body>& described = used->world.scene().bodies;
-        write_outputs(outputs, output_count, bodies.size(),
-                      {{"position", sizeof(vec3), [&](std::size_t i, char* to) { put(to, bodies[i].position); }},
-                       {"orientation", sizeof(vec4), [&](std::size_t i, char* to) { put(to, bodies[i].orientation); }},
-                       {"velocity", sizeof(vec3), [&](std::size_t i, char* to) { put(to, bodies[i].velocity); }},
-                       {"angular_velocity", sizeof(vec3), [&](std::size_t i, char* to) { put(to, bodies[i].angular_velocity); }},
-                       {"mass", sizeof(float), [&](std::size_t i, char* to) { put(to, mass_properties(described[i]).mass); }},
-                       {"asleep", 1, [&](std::size_t i, char* to) { *to = bodies[i].asleep ? 1 : 0; }},
-                       {"exists", 1, [&](std::size_t i, char* to) { *to = bodies[i].exists ? 1 : 0; }}});
+        const std::size_t n = bodies.size();
+        write_outputs(outputs, output_count, n,
+                      {writer("position", n, [&](std::size_t i) { return bodies[i].position; }),
+                       writer("orientation", n, [&](std::size_t i) { return bodies[i].orientation; }),
+                       writer("velocity", n, [&](std::size_t i) { return bodies[i].velocity; }),
+                       writer("angular_velocity", n, [&](std::size_t i) { return bodies[i].angular_velocity; }),
+                       writer("mass", n, [&](std::size_t i) { return mass_properties(described[i]).mass; }),
+                       writer("asleep", n, [&](std::size_t i) { return bodies[i].asleep; }),
+                       writer("exists", n, [&](std::size_t i) { return bodies[i].exists; })});
     });
 }
 
@@ -142,9 +153,9 @@ scree_result scree_world_read_of(scree_world* world, const int64_t* bodies, size
             if (name.starts_with("origin_") && frames.empty()) frames = used->world.origins(of);
         }
         write_outputs(outputs, output_count, count,
-                      {{"origin_position", sizeof(vec3), [&](std::size_t i, char* to) { put(to, frames[i].position); }},
-                       {"origin_orientation", sizeof(vec4), [&](std::size_t i, char* to) { put(to, frames[i].orientation); }},
-                       {"touch_force", sizeof(vec3), [&](std::size_t i, char* to) { put(to, forces[i]); }}});
+                      {writer("origin_position", count, [&](std::size_t i) { return frames[i].position; }),
+                       writer("origin_orientation", count, [&](std::size_t i) { return frames[i].orientation; }),
+                       writer("touch_force", count, [&](std::size_t i) { return forces[i]; })});
     });
 }
 
@@ -155,10 +166,12 @@ scree_result scree_world_write(scree_world* world, const int64_t* bodies, size_t
         const std::vector<std::size_t> of = bodies_of(used->world, bodies, count);
         const Columns given(columns, column_count, count,
                             {{"position", 3}, {"orientation", 4}, {"velocity", 3}, {"angular_velocity", 3}});
+        const Rows position = given["position"], orientation = given["orientation"], velocity = given["velocity"],
+                   spin = given["angular_velocity"];
         std::vector<BodyChange> changes(count);
         for (std::size_t i = 0; i < count; ++i)
-            changes[i] = {of[i], given.maybe_three("position", i), given.maybe_four("orientation", i),
-                          given.maybe_three("velocity", i), given.maybe_three("angular_velocity", i)};
+            changes[i] = {of[i], position.maybe<vec3>(i), orientation.maybe<vec4>(i), velocity.maybe<vec3>(i),
+                          spin.maybe<vec3>(i)};
         used->world.set_bodies(changes);
     });
 }
@@ -180,9 +193,9 @@ scree_result scree_world_move(scree_world* world, const int64_t* bodies, size_t 
         const UsedWorld used(world);
         const std::vector<std::size_t> of = bodies_of(used->world, bodies, count);
         const Columns given(columns, column_count, count, {{"position", 3}, {"orientation", 4}});
+        const Rows position = given.required("position"), orientation = given.required("orientation");
         std::vector<BodyTarget> targets(count);
-        for (std::size_t i = 0; i < count; ++i)
-            targets[i] = {of[i], given.three("position", i), given.four("orientation", i), steps};
+        for (std::size_t i = 0; i < count; ++i) targets[i] = {of[i], position.at<vec3>(i), orientation.at<vec4>(i), steps};
         used->world.move_bodies(targets);
     });
 }
@@ -327,6 +340,7 @@ scree_result scree_world_view(scree_world* world, const char* name, scree_view**
         const auto shown = [&](const auto& table) {
             return scree_array{table.data(), std::min<std::size_t>(state.fixed().bodies, table.size()), sizeof table.front()};
         };
+        static_assert(sizeof(bool) == 1);
         static_assert(sizeof(physics::Pose) == 32 && sizeof(physics::Velocity) == 32);
         const std::string wanted = text_of(name, "name");
         scree_array made{};

@@ -90,6 +90,7 @@ scree_result told_error() noexcept {
 
 std::string text_of(const char* text, const char* name) {
     std::string made = &given(text, name);
+    if (std::none_of(made.begin(), made.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; })) return made;
     try {
         (void)nlohmann::json(made).dump();
     } catch (const nlohmann::json::type_error&) {

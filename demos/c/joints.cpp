@@ -114,17 +114,18 @@ scree_result scree_world_set_drives(scree_world* world, const int64_t* joints, s
         require_axis(axis);
         const Columns given(columns, column_count, count,
                             {{"stiffness", 1}, {"damping", 1}, {"target", 1}, {"target_speed", 1}, {"max_force", 1}});
+        const Rows stiffness = given["stiffness"], damping = given["damping"], target = given["target"],
+                   target_speed = given["target_speed"], max_force = given["max_force"];
         std::vector<JointDrive> drives(count);
         for (std::size_t i = 0; i < count; ++i) {
-            std::optional<float> greatest = given.maybe_number("max_force", i);
-            if (greatest) greatest = bounded(*greatest);
             drives[i] = {named[i],
                          axis_of(used->world, named[i], axis),
-                         given.maybe_number("stiffness", i),
-                         given.maybe_number("damping", i),
-                         given.maybe_number("target", i),
-                         given.maybe_number("target_speed", i),
-                         greatest};
+                         stiffness.maybe<float>(i),
+                         damping.maybe<float>(i),
+                         target.maybe<float>(i),
+                         target_speed.maybe<float>(i),
+                         {}};
+            if (max_force) drives[i].max_force = bounded(max_force.at<float>(i));
         }
         used->world.set_drives(drives);
     });
@@ -137,9 +138,10 @@ scree_result scree_world_set_motors(scree_world* world, const int64_t* joints, s
         const std::vector<std::size_t> named = joints_of(used->world, joints, count);
         require_axis(axis);
         const Columns given(columns, column_count, count, {{"speed", 1}, {"max_force", 1}});
+        const Rows speed = given.required("speed"), max_force = given.required("max_force");
         for (std::size_t i = 0; i < count; ++i)
             used->world.set_motor(named[i], axis_of(used->world, named[i], axis),
-                                  {given.number("speed", i), bounded(given.number("max_force", i))});
+                                  {speed.at<float>(i), bounded(max_force.at<float>(i))});
     });
 }
 
@@ -160,10 +162,10 @@ scree_result scree_world_set_joint_coordinates(scree_world* world, const int64_t
         const std::vector<std::size_t> named = joints_of(used->world, joints, count);
         require_axis(axis);
         const Columns given(columns, column_count, count, {{"coordinate", 1}, {"rate", 1}});
+        const Rows coordinate = given["coordinate"], rate = given["rate"];
         std::vector<JointCoordinate> all(count);
         for (std::size_t i = 0; i < count; ++i)
-            all[i] = {named[i], axis_of(used->world, named[i], axis), given.maybe_number("coordinate", i),
-                      given.maybe_number("rate", i)};
+            all[i] = {named[i], axis_of(used->world, named[i], axis), coordinate.maybe<float>(i), rate.maybe<float>(i)};
         used->world.set_joint_coordinates(all);
     });
 }
@@ -175,9 +177,9 @@ scree_result scree_world_apply_joint_forces(scree_world* world, const int64_t* j
         const std::vector<std::size_t> named = joints_of(used->world, joints, count);
         require_axis(axis);
         const Columns given(columns, column_count, count, {{"force", 1}});
+        const Rows force = given.required("force");
         std::vector<JointForce> forces(count);
-        for (std::size_t i = 0; i < count; ++i)
-            forces[i] = {named[i], axis_of(used->world, named[i], axis), given.number("force", i)};
+        for (std::size_t i = 0; i < count; ++i) forces[i] = {named[i], axis_of(used->world, named[i], axis), force.at<float>(i)};
         used->world.apply_joint_forces(forces);
     });
 }

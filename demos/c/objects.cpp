@@ -23,7 +23,7 @@ void WorldObject::require_no_views(const char* what) const {
     const std::size_t held = views;
     if (held == 0) return;
     throw Failure(SCREE_VIEWED, "the world cannot be " + std::string(what) + " while " + std::to_string(held) +
-                                  " views look into its tables; release them first");
+                                    " views look into its tables; release them first");
 }
 
 std::optional<std::size_t> copy_of(const World& world, std::size_t copy) {
@@ -50,55 +50,33 @@ std::vector<std::size_t> indices_of(const std::int64_t* given, std::size_t count
 
 Columns::Columns(const scree_column* columns, std::size_t count, std::size_t rows, const std::vector<Known>& known) {
     given_array(columns, count, "columns");
-    json_reading::Names names;
-    for (const Known& one : known) names.emplace_back(one.name);
+    columns_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::string name = text_of(columns[i].name, "the name of a column");
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end()) refuse(json_reading::unknown("column", name, names));
-        if (find(name.c_str())) refuse("there are two columns \"" + name + "\"");
-        const std::size_t row =
-            static_cast<std::size_t>(known[static_cast<std::size_t>(at - names.begin())].width) * sizeof(float);
+        const auto at = std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.name == name; });
+        if (at == known.end()) {
+            json_reading::Names names;
+            for (const Known& one : known) names.emplace_back(one.name);
+            refuse(json_reading::unknown("column", name, names));
+        }
+        if ((*this)[name.c_str()]) refuse("there are two columns \"" + name + "\"");
+        const std::size_t row = static_cast<std::size_t>(at->width) * sizeof(float);
         given_array(columns[i].data, rows, name.c_str());
-        columns_.push_back({name, reinterpret_cast<const char*>(columns[i].data),
-                            columns[i].stride == 0 ? row : stride_of(columns[i].stride, row, name.c_str())});
+        columns_.emplace_back(
+            name, Rows(columns[i].data, columns[i].stride == 0 ? row : stride_of(columns[i].stride, row, name.c_str())));
     }
 }
 
-const Columns::Column* Columns::find(const char* name) const {
-    const auto found = std::find_if(columns_.begin(), columns_.end(), [&](const Column& one) { return one.name == name; });
-    return found == columns_.end() ? nullptr : &*found;
+Rows Columns::operator[](const char* name) const {
+    for (const auto& [known, rows] : columns_)
+        if (known == name) return rows;
+    return {};
 }
 
-const char* Columns::row_of(const char* name, std::size_t row) const {
-    const Column* column = find(name);
-    if (!column) refuse(std::string("there is no column \"") + name + "\"");
-    return column->data + row * column->stride;
-}
-
-float Columns::number(const char* name, std::size_t row) const {
-    float value = 0;
-    std::memcpy(&value, row_of(name, row), sizeof value);
-    return value;
-}
-vec3 Columns::three(const char* name, std::size_t row) const {
-    vec3 value;
-    std::memcpy(&value, row_of(name, row), sizeof value);
-    return value;
-}
-vec4 Columns::four(const char* name, std::size_t row) const {
-    vec4 value;
-    std::memcpy(&value, row_of(name, row), sizeof value);
-    return value;
-}
-std::optional<float> Columns::maybe_number(const char* name, std::size_t row) const {
-    return has(name) ? std::optional(number(name, row)) : std::nullopt;
-}
-std::optional<vec3> Columns::maybe_three(const char* name, std::size_t row) const {
-    return has(name) ? std::optional(three(name, row)) : std::nullopt;
-}
-std::optional<vec4> Columns::maybe_four(const char* name, std::size_t row) const {
-    return has(name) ? std::optional(four(name, row)) : std::nullopt;
+Rows Columns::required(const char* name) const {
+    for (const auto& [known, rows] : columns_)
+        if (known == name) return rows;
+    refuse(std::string("there is no column \"") + name + "\"");
 }
 
 std::size_t stride_of(std::size_t given, std::size_t record, const char* name) {

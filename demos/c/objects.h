@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -99,7 +100,29 @@ std::optional<std::size_t> copy_of(const World& world, std::size_t copy);
 std::vector<std::size_t> indices_of(const std::int64_t* given, std::size_t count, std::size_t most, const char* what);
 std::size_t index_of(std::size_t given, std::size_t most, const char* what);
 
-// Rows of the caller's columns, by name: those that are known, of so many floats a row.
+// A column of the caller; without rows where it gave none.
+class Rows {
+public:
+    Rows() = default;
+    Rows(const void* data, std::size_t stride) : data_(static_cast<const char*>(data)), stride_(stride) {}
+    explicit operator bool() const { return data_ != nullptr; }
+    template <class Value>
+    Value at(std::size_t row) const {
+        Value value;
+        std::memcpy(&value, data_ + row * stride_, sizeof value);
+        return value;
+    }
+    template <class Value>
+    std::optional<Value> maybe(std::size_t row) const {
+        return data_ ? std::optional(at<Value>(row)) : std::nullopt;
+    }
+
+private:
+    const char* data_ = nullptr;
+    std::size_t stride_ = 0;
+};
+
+// The caller's columns by name: those that are known, of so many floats a row.
 class Columns {
 public:
     struct Known {
@@ -107,23 +130,11 @@ public:
         int width;
     };
     Columns(const scree_column* columns, std::size_t count, std::size_t rows, const std::vector<Known>& known);
-    bool has(const char* name) const { return find(name) != nullptr; }
-    float number(const char* name, std::size_t row) const;
-    vec3 three(const char* name, std::size_t row) const;
-    vec4 four(const char* name, std::size_t row) const;
-    std::optional<float> maybe_number(const char* name, std::size_t row) const;
-    std::optional<vec3> maybe_three(const char* name, std::size_t row) const;
-    std::optional<vec4> maybe_four(const char* name, std::size_t row) const;
+    Rows operator[](const char* name) const;
+    Rows required(const char* name) const;  // throws Failure where there is none
 
 private:
-    struct Column {
-        std::string name;
-        const char* data;
-        std::size_t stride;
-    };
-    const Column* find(const char* name) const;
-    const char* row_of(const char* name, std::size_t row) const;
-    std::vector<Column> columns_;
+    std::vector<std::pair<std::string, Rows>> columns_;
 };
 
 // As `given`, with a stride that is not below a record's size.

@@ -95,12 +95,8 @@ const std::vector<Columns::Known>& body_columns() {
 void set_columns(std::span<Body> bodies, const Columns& columns) {
     schema::for_each_field<Body>([&]<class Member>(const schema::Field<Body, Member>& field) {
         if constexpr (width_of < Member >> 0) {
-            if (!columns.has(field.key)) return;
-            for (std::size_t i = 0; i < bodies.size(); ++i) {
-                if constexpr (width_of<Member> == 1) bodies[i].*field.member = columns.number(field.key, i);
-                if constexpr (width_of<Member> == 3) bodies[i].*field.member = columns.three(field.key, i);
-                if constexpr (width_of<Member> == 4) bodies[i].*field.member = columns.four(field.key, i);
-            }
+            if (const Rows rows = columns[field.key])
+                for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].*field.member = rows.at<Member>(i);
         }
     });
 }

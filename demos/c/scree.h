@@ -513,6 +513,12 @@ typedef struct scree_export scree_export;
 SCREE_API scree_result scree_world_export(scree_world* world, const char* path, int every, int clips, scree_export** made);
 SCREE_API scree_result scree_export_close(scree_export* made);
 
+/* ---- The program */
+
+/* Runs a command of the program scree ("scree", "run", "wall", ...), which writes to the standard streams and hears SIGINT.
+ * Returns its exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted. There is no window. */
+SCREE_API int scree_command(int argc, const char* const* argv);
+
 #ifdef __cplusplus
 }
 #endif

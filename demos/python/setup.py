@@ -1,23 +1,28 @@
-# Builds the package scree with CMake, for pip.
+# Builds the package scree with libscree, for pip and for wheels.
 """pip install --no-build-isolation --no-deps demos/python
+pip wheel --no-build-isolation --no-deps -w dist demos/python     a wheel for any CPython from 3.9 on
 
-Needs the packages that .ci/setup lists, and no network. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
--DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the module from, in place of a build of
-its own; CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
+Needs the packages that .ci/setup lists, and no network. The wheel holds libscree and the libraries that it needs, but for the C and
+C++ libraries and the Vulkan loader, which are the machine's. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
+-DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the library from, in place of a build of its own;
+CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
 """
 import os
 import re
 import shlex
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
-from setuptools import Extension, setup
-from setuptools.command.build_ext import build_ext
+from setuptools import setup
+from setuptools.command.build_py import build_py
+from setuptools.dist import Distribution
+from wheel.bdist_wheel import bdist_wheel
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
+LIBRARY = "libscree.so.0"
+OF_THE_MACHINE = re.compile(r"^(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|stdc\+\+|gcc_s)|linux-vdso)\.so")
 
 
 def version() -> str:
@@ -27,31 +32,63 @@ def version() -> str:
     return found.group(1)
 
 
-class CMakeBuild(build_ext):
-    """Configures and builds the target scree_python, and takes what it made."""
+def configured() -> Path:
+    given = os.environ.get("SCREE_BUILD_FOLDER")
+    if given:
+        return Path(given)
+    # Beside the other builds of the checkout, so that a second installation compiles what has changed.
+    build = TOP / "build" / "pip-library"
+    command = [
+        "cmake", "-S", str(TOP), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DSCREE_PREFERS_CLANG=ON", "-DSCREE_PYTHON=OFF",
+        "-DSCREE_TESTS=OFF", "-DSCREE_WINDOW=OFF", "-DSCREE_PROGRAM=ON", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=6"]
+    if shutil.which("ninja"):
+        command += ["-G", "Ninja"]
+    subprocess.run(command + shlex.split(os.environ.get("SCREE_CMAKE_ARGS", "")), check=True)
+    return build
 
-    def configure(self, build: Path) -> None:
-        command = [
-            "cmake", "-S", str(TOP), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DSCREE_PREFERS_CLANG=ON",
-            "-DSCREE_PYTHON=ON", "-DSCREE_TESTS=OFF", "-DSCREE_WINDOW=OFF", "-DSCREE_PROGRAM=ON", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=6",
-            f"-DSCREE_PYTHON_EXECUTABLE={sys.executable}"]
-        if shutil.which("ninja"):
-            command += ["-G", "Ninja"]
-        subprocess.run(command + shlex.split(os.environ.get("SCREE_CMAKE_ARGS", "")), check=True)
 
-    def build_extension(self, ext: Extension) -> None:
-        # Beside the other builds of the checkout, so that a second installation compiles what has changed.
-        build = TOP / "build" / f"pip-{sys.implementation.cache_tag}"
-        if given := os.environ.get("SCREE_BUILD_FOLDER"):
-            build = Path(given)
-        else:
-            self.configure(build)
+def needed_by(library: Path) -> "list[Path]":
+    """The libraries that it loads, and those that these load, but for the machine's."""
+    told = subprocess.run(["ldd", str(library)], check=True, capture_output=True, text=True).stdout
+    found = re.findall(r"^\s*(\S+) => (\S+)", told, flags=re.M)
+    missing = [name for name, place in found if place == "not"]
+    if missing:
+        raise SystemExit(f"{library} needs {', '.join(missing)}, which this machine lacks")
+    return [Path(place) for name, place in found if not OF_THE_MACHINE.match(name)]
+
+
+class WithLibrary(build_py):
+    """The package's files, and the library with what it needs."""
+
+    def run(self) -> None:
+        folder = Path(self.build_lib) / "scree"
+        shutil.rmtree(folder, ignore_errors=True)  # of a build before
+        super().run()
+        build = configured()
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
-        subprocess.run(["cmake", "--build", str(build), "--target", "scree_python", "--parallel", jobs], check=True)
-        made = next((build / "python" / "scree").glob("_native*.so"))
-        target = Path(self.get_ext_fullpath(ext.name))
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(made, target)
+        subprocess.run(["cmake", "--build", str(build), "--target", "scree_c", "--parallel", jobs], check=True)
+        library = build / "demos" / "c" / LIBRARY
+        shutil.copy2(library.resolve(), folder / LIBRARY)
+        for one in needed_by(library):
+            shutil.copy2(one, folder / one.name)
+        for one in folder.glob("*.so*"):
+            subprocess.run(["strip", "--strip-unneeded", str(one)], check=True)
+
+
+class ForAnyPython(bdist_wheel):
+    """Of one kind of machine, and of no version of Python."""
+
+    def finalize_options(self) -> None:
+        super().finalize_options()
+        self.root_is_pure = False
+
+    def get_tag(self) -> "tuple[str, str, str]":
+        return "py3", "none", super().get_tag()[2]
+
+
+class OfOneMachine(Distribution):
+    def has_ext_modules(self) -> bool:
+        return True
 
 
 SCRATCH = TOP / "build" / "pip"
@@ -62,8 +99,8 @@ setup(
     # Nothing is written beside the sources.
     options={"build": {"build_base": str(SCRATCH)}, "egg_info": {"egg_base": str(SCRATCH)}},
     packages=["scree"],
-    package_data={"scree": ["*.pyi", "py.typed"]},
-    ext_modules=[Extension("scree._native", sources=[])],
-    cmdclass={"build_ext": CMakeBuild},
+    package_data={"scree": ["py.typed"]},
+    cmdclass={"build_py": WithLibrary, "bdist_wheel": ForAnyPython},
+    distclass=OfOneMachine,
     zip_safe=False,
 )

@@ -144,6 +144,8 @@ LIBRARY.scree_close_devices.restype = None
 for _name in ("scree_error_message", "scree_error_place", "scree_version"):
     getattr(LIBRARY, _name).restype = ctypes.c_char_p
 LIBRARY.scree_has_vulkan.restype = ctypes.c_int
+LIBRARY.scree_command.argtypes = [ctypes.c_int, ctypes.c_void_p]
+LIBRARY.scree_command.restype = ctypes.c_int
 
 _ERRORS: "dict[int, Type[Exception]]" = {
     1: ValueError, 2: ValueError, 3: IndexError, 4: SceneError, 5: CheckpointError, 6: OSError, 7: DeviceError, 8: MemoryError, 9: RuntimeError,

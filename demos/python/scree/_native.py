@@ -7,7 +7,7 @@ import functools
 import json
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 try:
     import numpy as np
@@ -75,13 +75,20 @@ def _copied(array: Array, kind: Any) -> _Array:
         return np.zeros(0, dtype)
     if array.stride != dtype.itemsize:
         raise RuntimeError(f"libscree has records of {array.stride} bytes, not {dtype.itemsize}: it is of another version than the package")
-    return np.frombuffer(ctypes.string_at(array.data, array.count * array.stride), dtype).copy()
+    made = np.empty(array.count, dtype)
+    ctypes.memmove(made.ctypes.data, array.data, made.nbytes)
+    return made
 
 
-def _columns(given: Dict[str, _MaybeFloats]) -> Tuple[Any, int]:
-    """Structs that name arrays, which must outlive the call."""
+def _columns(given: Mapping[bytes, Optional[_Array]], rows: int) -> Tuple[Any, int]:
+    """Structs that name arrays without gaps, one row for each thing; these must outlive the call."""
     there = [(name, values) for name, values in given.items() if values is not None]
-    return (Column * len(there))(*(Column(name.encode(), values.ctypes.data, values.strides[0] if values.size else 0) for name, values in there)), len(there)
+    made = (Column * len(there))()
+    for one, (name, values) in zip(made, there):
+        if len(values) != rows or not values.flags.c_contiguous:  # the package has shaped it; this is for those who call past it
+            raise ValueError(f"{name.decode()}: has another shape than its bodies or joints")
+        one.name, one.data = name, values.ctypes.data
+    return made, len(there)
 
 
 def _text(given: str) -> bytes:
@@ -89,13 +96,6 @@ def _text(given: str) -> bytes:
     if "\0" in given:
         raise ValueError(f"a text has a NUL: {given[:60]!r}")
     return given.encode("utf-8", "surrogateescape")
-
-
-def _shaped(array: _Array, n: int, width: int, name: str) -> _Array:
-    """The package has shaped it; this is for those who call past it."""
-    if array.shape != ((n, width) if width else (n,)) or not array.flags.c_contiguous:
-        raise ValueError(f"{name}: has another shape than its bodies, rays or shapes")
-    return array
 
 
 def _flags_of(mask: Any) -> _Array:
@@ -130,7 +130,7 @@ class Description:
     def __init__(self, other: "Optional[Description]" = None) -> None:
         handle = ctypes.c_void_p()
         check(LIBRARY.scree_scene_create(_byref(handle)) if other is None else LIBRARY.scree_scene_copy(other._handle, _byref(handle)))
-        self._handle = handle.value
+        self._handle: Optional[int] = handle.value
 
     @classmethod
     def _made(cls, function: Callable[..., int], *arguments: Any) -> "Description":
@@ -156,8 +156,7 @@ class Description:
 
     def add_bodies(self, body: str, count: int, columns: Dict[str, _Floats]) -> int:
         first = ctypes.c_size_t()
-        given, number = _columns({name: _shaped(np.atleast_1d(values), count, values.shape[1] if values.ndim > 1 else 0, name)
-                                  for name, values in columns.items()})
+        given, number = _columns({name.encode(): values for name, values in columns.items()}, count)
         check(LIBRARY.scree_scene_add_bodies(self._handle, _text(body), count, given, number, _byref(first)))
         return first.value
 
@@ -319,10 +318,13 @@ class World:
         self._call(function, *arguments, _byref(found))
         return _copied(found, kind)
 
-    def _json(self, key: bytes) -> Any:
+    def _text(self, key: bytes) -> bytes:
         found = ctypes.c_char_p()
         self._call(LIBRARY.scree_world_get, key, _byref(found))
-        return json.loads(found.value or b"null")
+        return found.value or b"null"
+
+    def _json(self, key: bytes) -> Any:
+        return json.loads(self._text(key))
 
     def _info(self) -> Any:
         info = sized(WorldInfo)
@@ -430,7 +432,7 @@ class World:
     def statistics(self, copy: Optional[int] = None) -> Dict[str, Any]:
         made = sized(Statistics)
         self._call(LIBRARY.scree_world_statistics, ALL_COPIES if copy is None else copy, _byref(made))
-        values = ((name, getattr(made, name)) for name, _ in Statistics._fields_ if name != "size")  # type: ignore[misc]
+        values = ((name, getattr(made, name)) for name, _ in Statistics._fields_ if name != "size")
         return {name: tuple(value) if isinstance(value, ctypes.Array) else value for name, value in values}
 
     def copies(self) -> int:
@@ -445,7 +447,7 @@ class World:
         return [f"{one:016x}" for one in self._array(np.uint64, LIBRARY.scree_world_copy_hashes).tolist()]
 
     def settings(self) -> Dict[str, Any]:
-        return self._json(b"settings")  # type: ignore[no-any-return]
+        return dict(_settings_of(self._text(b"settings")))
 
     def stage_times(self) -> Dict[str, float]:
         return self._json(b"stage_times")  # type: ignore[no-any-return]
@@ -518,13 +520,13 @@ class World:
     def columns(self, names: Sequence[str]) -> Dict[str, _Array]:
         count = self._count(b"bodies")
         made = {name: np.empty((count, *_COLUMNS[name][1]), _COLUMNS[name][0]) for name in names}
-        outputs, number = _columns(made)
+        outputs, number = _columns({name.encode(): values for name, values in made.items()}, count)
         self._call(LIBRARY.scree_world_read, outputs, number, count)
         return made
 
     def _columns_of(self, ids: _Ids, **widths: int) -> Dict[str, _Floats]:
         made = {name: np.empty((len(ids), width), np.float32) for name, width in widths.items()}
-        outputs, number = _columns(made)
+        outputs, number = _columns({name.encode(): values for name, values in made.items()}, len(ids))
         self._call(LIBRARY.scree_world_read_of, ids.ctypes.data, len(ids), outputs, number)
         return made
 
@@ -537,24 +539,22 @@ class World:
     def joint_count(self) -> int:
         return self._count(b"joints")
 
-    def _with_rows(self, function: Callable[..., int], ids: _Ids, columns: Dict[str, _MaybeFloats], *more: Any, before: Tuple[Any, ...] = ()) -> None:
-        for name, values in columns.items():
-            if values is not None:
-                _shaped(values, len(ids), values.shape[1] if values.ndim > 1 else 0, name)
-        given, number = _columns(columns)
-        self._call(function, ids.ctypes.data, len(ids), *before, given, number, *more)
+    def _with_rows(self, function: Callable[..., int], ids: _Ids, columns: Dict[bytes, _MaybeFloats], *more: Any, before: Tuple[Any, ...] = ()) -> None:
+        count = len(ids)
+        given, number = _columns(columns, count)
+        self._call(function, ids.ctypes.data, count, *before, given, number, *more)
 
     def set(self, ids: _Ids, position: _MaybeFloats, orientation: _MaybeFloats, velocity: _MaybeFloats, angular_velocity: _MaybeFloats) -> None:
         self._with_rows(LIBRARY.scree_world_write, ids,
-                        {"position": position, "orientation": orientation, "velocity": velocity, "angular_velocity": angular_velocity})
+                        {b"position": position, b"orientation": orientation, b"velocity": velocity, b"angular_velocity": angular_velocity})
 
     def apply(self, ids: _Ids, force: _MaybeFloats, torque: _MaybeFloats, impulse: _MaybeFloats, angular_impulse: _MaybeFloats,
               offset: _MaybeFloats) -> None:
         self._with_rows(LIBRARY.scree_world_apply, ids,
-                        {"force": force, "torque": torque, "impulse": impulse, "angular_impulse": angular_impulse, "offset": offset})
+                        {b"force": force, b"torque": torque, b"impulse": impulse, b"angular_impulse": angular_impulse, b"offset": offset})
 
     def move(self, ids: _Ids, position: _Floats, orientation: _Floats, steps: int) -> None:
-        self._with_rows(LIBRARY.scree_world_move, ids, {"position": position, "orientation": orientation}, steps)
+        self._with_rows(LIBRARY.scree_world_move, ids, {b"position": position, b"orientation": orientation}, steps)
 
     def touch_forces(self, ids: _Ids) -> _Floats:
         return self._columns_of(ids, touch_force=3)["touch_force"]
@@ -587,7 +587,8 @@ class World:
 
     def add(self, bodies: Description) -> _Ids:
         made = self._array(_body_dtype, LIBRARY.scree_world_add_bodies, bodies._handle)
-        return np.stack([made["index"], made["generation"]], axis=1).astype(np.int64)
+        pairs: _Ids = made.view(np.uint32).reshape(-1, 2).astype(np.int64)
+        return pairs
 
     @staticmethod
     def _handles(given: _Ids) -> _Array:
@@ -607,7 +608,8 @@ class World:
     def handles(self, ids: _Ids) -> _Ids:
         made = np.empty(len(ids), _body_dtype)
         self._call(LIBRARY.scree_world_bodies, ids.ctypes.data, len(ids), made.ctypes.data)
-        return np.stack([made["index"], made["generation"]], axis=1).astype(np.int64)
+        pairs: _Ids = made.view(np.uint32).reshape(-1, 2).astype(np.int64)
+        return pairs
 
     def are_valid(self, handles: _Ids) -> _Flags:
         given = self._handles(handles)
@@ -679,7 +681,7 @@ class World:
         return _AXES.index(name) if name else -1
 
     def set_motors(self, joints: _Ids, axis: str, speed: _Floats, max_force: _Floats) -> None:
-        self._with_rows(LIBRARY.scree_world_set_motors, joints, {"speed": speed, "max_force": max_force}, before=(self._axis(axis),))
+        self._with_rows(LIBRARY.scree_world_set_motors, joints, {b"speed": speed, b"max_force": max_force}, before=(self._axis(axis),))
 
     def set_springs(self, joints: _Ids, axis: str, spring: str) -> None:
         self._call(LIBRARY.scree_world_set_springs, joints.ctypes.data, len(joints), self._axis(axis), _text(spring))
@@ -687,14 +689,14 @@ class World:
     def set_drives(self, joints: _Ids, axis: str, stiffness: _MaybeFloats, damping: _MaybeFloats, target: _MaybeFloats,
                    target_speed: _MaybeFloats, max_force: _MaybeFloats) -> None:
         self._with_rows(LIBRARY.scree_world_set_drives, joints,
-                        {"stiffness": stiffness, "damping": damping, "target": target, "target_speed": target_speed, "max_force": max_force},
+                        {b"stiffness": stiffness, b"damping": damping, b"target": target, b"target_speed": target_speed, b"max_force": max_force},
                         before=(self._axis(axis),))
 
     def set_joint_coordinates(self, joints: _Ids, axis: str, coordinate: _MaybeFloats, rate: _MaybeFloats) -> None:
-        self._with_rows(LIBRARY.scree_world_set_joint_coordinates, joints, {"coordinate": coordinate, "rate": rate}, before=(self._axis(axis),))
+        self._with_rows(LIBRARY.scree_world_set_joint_coordinates, joints, {b"coordinate": coordinate, b"rate": rate}, before=(self._axis(axis),))
 
     def apply_joint_forces(self, joints: _Ids, axis: str, force: _Floats) -> None:
-        self._with_rows(LIBRARY.scree_world_apply_joint_forces, joints, {"force": force}, before=(self._axis(axis),))
+        self._with_rows(LIBRARY.scree_world_apply_joint_forces, joints, {b"force": force}, before=(self._axis(axis),))
 
     def add_joint(self, joint: str, anchor: _MaybeFloats, axis: _Floats) -> int:
         index = ctypes.c_size_t()
@@ -830,6 +832,11 @@ class World:
         return tuple(camera["eye"]), tuple(camera["target"]), camera["vertical_fov"], camera.get("orthographic", False)
 
 
+@functools.lru_cache(maxsize=64)
+def _settings_of(text: bytes) -> Dict[str, Any]:
+    return json.loads(text)  # type: ignore[no-any-return]
+
+
 def _one_or_each(given: _Ids, n: int, name: str) -> Any:
     """One number for all, or one for each."""
     if given.size == 1:
@@ -839,7 +846,9 @@ def _one_or_each(given: _Ids, n: int, name: str) -> Any:
         return one
     if name == "copy" and (given < 0).any():
         raise IndexError(f"copy {given.min()}")
-    return _shaped(given, n, 0, name)
+    if given.shape != (n,):
+        raise ValueError(f"{name}: has the shape {given.shape}, should have ({n},)")
+    return given
 
 
 # ---- what is not of one scene or world

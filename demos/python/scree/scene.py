@@ -224,9 +224,8 @@ class Scene(Bodies[_native.Description]):
         given = self._native.camera()
         if given is None:
             return None
-        if given.get("path"):
-            given = given["path"][0]
-        return Camera(tuple(given["eye"]), tuple(given["target"]), given.get("vertical_fov", 45.0), given.get("orthographic", False))
+        pose = (given.get("path") or [given])[0]
+        return Camera(tuple(pose["eye"]), tuple(pose["target"]), pose.get("vertical_fov", 45.0), given.get("orthographic", False))
 
     @camera.setter
     def camera(self, value: Union[Camera, typing.Mapping[str, Any], None]) -> None:
