@@ -123,6 +123,18 @@ struct JointDrive {
     std::optional<float> max_force{};     // N or N m
 };
 
+// For set_motors and set_springs.
+struct JointMotor {
+    std::size_t joint = 0;
+    JointAxis axis = JointAxis::twist;
+    Motor motor{};
+};
+struct JointSpring {
+    std::size_t joint = 0;
+    JointAxis axis = JointAxis::twist;
+    Spring spring{};
+};
+
 // For set_joint_coordinates; what is left out stays.
 struct JointCoordinate {
     std::size_t joint = 0;
@@ -278,8 +290,10 @@ public:
     // and for a spring that acts with a speed or a limit of its force beside a motor or friction.
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
-    // Many axes in one transfer. A drive takes the place of a motor, and one with a limit or a speed that of friction, too.
-    // Throws the same, and then changes nothing.
+    // Many axes in one transfer; what is refused changes none. A drive takes the place of a motor, and one with a limit or a
+    // speed that of friction, too. Throw the same.
+    void set_motors(std::span<const JointMotor> motors);
+    void set_springs(std::span<const JointSpring> springs);
     void set_drives(std::span<const JointDrive> drives);
     // Limits, spring, motor and friction of an axis at present; one that cannot move is locked. Throws std::out_of_range.
     Axis joint_axis(std::size_t joint, JointAxis axis) const;

@@ -119,18 +119,32 @@ std::vector<JointState> World::joints() const {
     return all;
 }
 
+void World::set_motors(std::span<const JointMotor> motors) {
+    std::vector<Impl::AxisChange> changes;
+    for (const JointMotor& one : motors)
+        changes.push_back({one.joint, one.axis, [motor = one.motor](Axis& axis) {
+                               axis.friction = 0;
+                               axis.motor = motor;
+                               if (axis.spring && motor.max_force == 0) axis.motor.reset();
+                           }});
+    whole().set_axes(changes);
+}
+
+void World::set_springs(std::span<const JointSpring> springs) {
+    std::vector<Impl::AxisChange> changes;
+    for (const JointSpring& one : springs)
+        changes.push_back({one.joint, one.axis, [spring = one.spring](Axis& axis) { axis.spring = spring; }});
+    whole().set_axes(changes);
+}
+
 void World::set_motor(std::size_t joint, JointAxis axis, const Motor& motor) {
-    const Impl::AxisChange one{joint, axis, [&](Axis& a) {
-                                   a.friction = 0;
-                                   a.motor = motor;
-                                   if (a.spring && motor.max_force == 0) a.motor.reset();
-                               }};
-    whole().set_axes({&one, 1});
+    const JointMotor one{joint, axis, motor};
+    set_motors({&one, 1});
 }
 
 void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) {
-    const Impl::AxisChange one{joint, axis, [&](Axis& a) { a.spring = spring; }};
-    whole().set_axes({&one, 1});
+    const JointSpring one{joint, axis, spring};
+    set_springs({&one, 1});
 }
 
 void World::set_drives(std::span<const JointDrive> drives) {

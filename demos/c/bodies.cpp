@@ -145,15 +145,22 @@ scree_result scree_world_read_of(scree_world* world, const int64_t* bodies, size
     return called([&] {
         const UsedWorld used(world);
         const std::vector<std::size_t> of = bodies_of(used->world, bodies, count);
-        std::vector<BodyFrame> frames;
-        std::vector<vec3> forces;
-        for (std::size_t i = 0; i < output_count && outputs != nullptr; ++i) {
-            const std::string name = text_or_none(outputs[i].name, "the name of an output");
-            if (name == "touch_force" && forces.empty()) forces = used->world.touch_forces(of);
-            if (name.starts_with("origin_") && frames.empty()) frames = used->world.origins(of);
-        }
+        const auto asks = [&](const char* prefix) {
+            for (std::size_t i = 0; i < output_count && outputs != nullptr; ++i)
+                if (text_or_none(outputs[i].name, "the name of an output").starts_with(prefix)) return true;
+            return false;
+        };
+        const std::vector<BodyFrame> frames = asks("origin_") ? used->world.origins(of) : std::vector<BodyFrame>();
+        const std::vector<vec3> forces = asks("touch_force") ? used->world.touch_forces(of) : std::vector<vec3>();
+        std::vector<BodyState> states;
+        if (asks("position") || asks("orientation") || asks("velocity") || asks("angular_velocity"))
+            for (const std::size_t body : of) states.push_back(used->world.body(body));
         write_outputs(outputs, output_count, count,
-                      {writer("origin_position", count, [&](std::size_t i) { return frames[i].position; }),
+                      {writer("position", count, [&](std::size_t i) { return states[i].position; }),
+                       writer("orientation", count, [&](std::size_t i) { return states[i].orientation; }),
+                       writer("velocity", count, [&](std::size_t i) { return states[i].velocity; }),
+                       writer("angular_velocity", count, [&](std::size_t i) { return states[i].angular_velocity; }),
+                       writer("origin_position", count, [&](std::size_t i) { return frames[i].position; }),
                        writer("origin_orientation", count, [&](std::size_t i) { return frames[i].orientation; }),
                        writer("touch_force", count, [&](std::size_t i) { return forces[i]; })});
     });
@@ -262,7 +269,8 @@ scree_result scree_world_set_material(scree_world* world, const int64_t* bodies,
         only(given, place, keys_of<Material>());
         std::vector<Material> made;
         for (const std::size_t body : of) {
-            used->world.handle_of(body);
+            if (!used->world.body(body).exists)
+                refuse("body " + std::to_string(body) + " has broken, or is a fragment of one that has not");
             Material& material = made.emplace_back(material_of(used->world.scene().bodies[body]));
             read_fields(given, place, material);
             schema::check_fields(place, material);
@@ -359,8 +367,7 @@ scree_result scree_world_view(scree_world* world, const char* name, scree_view**
 }
 
 void scree_view_release(scree_view* view) {
-    const auto object = std::static_pointer_cast<ViewObject>(ended(HandleKind::view, view));
-    if (object) --object->world->views;
+    if (const auto object = std::static_pointer_cast<ViewObject>(ended(HandleKind::view, view))) --object->world->views;
 }
 
 scree_result scree_world_view_count(scree_world* world, size_t* views) {

@@ -54,7 +54,7 @@ scree_result told_error() noexcept {
     try {
         throw;
     } catch (const Failure& error) {
-        return tell(error.kind, error.what());
+        return tell(error.kind, error.what(), error.place);
     } catch (const SceneError& error) {
         return tell(SCREE_BAD_SCENE, error.what(), error.pointer);
     } catch (const ImportError& error) {
@@ -107,7 +107,8 @@ std::size_t size_in(const void* of, const char* name) {
     if (of == nullptr) refuse(std::string(name) + ": is null");
     std::memcpy(&size, of, sizeof size);
     constexpr std::size_t most = 4096;  // more is a struct without SCREE_INIT
-    if (size < sizeof size || size > most)
+    // As that of every version of the struct, it ends with a member.
+    if (size < sizeof size || size > most || size % alignof(std::size_t) != 0)
         refuse(std::string(name) + ": its size is " + std::to_string(size) + "; begin with SCREE_INIT");
     return size;
 }

@@ -16,8 +16,10 @@ namespace scree::c {
 
 // An error of a kind that no exception of the library has.
 struct Failure : std::runtime_error {
-    Failure(scree_result of, const std::string& reason) : std::runtime_error(reason), kind(of) {}
+    Failure(scree_result of, const std::string& reason, std::string at = "")
+        : std::runtime_error(reason), kind(of), place(std::move(at)) {}
     scree_result kind;
+    std::string place;  // JSON pointer
 };
 [[noreturn]] inline void refuse(const std::string& reason) {
     throw Failure(SCREE_BAD_ARGUMENT, reason);
@@ -57,6 +59,8 @@ scree_array kept_array(std::vector<Record> records) {
     return {owned->data(), owned->size(), sizeof(Record)};
 }
 
+constexpr std::size_t most_rows = std::size_t{1} << (sizeof(std::size_t) > 4 ? 40 : 26);
+
 // What the caller gives. All throw Failure, naming what is wrong.
 template <class Value>
 Value& given(Value* pointer, const char* name) {
@@ -66,6 +70,8 @@ Value& given(Value* pointer, const char* name) {
 template <class Value>
 Value* given_array(Value* pointer, std::size_t count, const char* name) {
     if (pointer == nullptr && count > 0) refuse(std::string(name) + ": is null, and has " + std::to_string(count) + " rows");
+    if (count > most_rows)
+        throw Failure(SCREE_NO_MEMORY, std::string(name) + ": " + std::to_string(count) + " rows are too many");
     return pointer;
 }
 std::string text_of(const char* text, const char* name);  // UTF-8

@@ -139,9 +139,10 @@ scree_result scree_world_set_motors(scree_world* world, const int64_t* joints, s
         require_axis(axis);
         const Columns given(columns, column_count, count, {{"speed", 1}, {"max_force", 1}});
         const Rows speed = given.required("speed"), max_force = given.required("max_force");
+        std::vector<JointMotor> motors(count);
         for (std::size_t i = 0; i < count; ++i)
-            used->world.set_motor(named[i], axis_of(used->world, named[i], axis),
-                                  {speed.at<float>(i), bounded(max_force.at<float>(i))});
+            motors[i] = {named[i], axis_of(used->world, named[i], axis), {speed.at<float>(i), bounded(max_force.at<float>(i))}};
+        used->world.set_motors(motors);
     });
 }
 
@@ -151,7 +152,9 @@ scree_result scree_world_set_springs(scree_world* world, const int64_t* joints, 
         const std::vector<std::size_t> named = joints_of(used->world, joints, count);
         require_axis(axis);
         const Spring spring = value_from<Spring>(json_given(spring_json, "spring_json"), "spring");
-        for (const std::size_t joint : named) used->world.set_spring(joint, axis_of(used->world, joint, axis), spring);
+        std::vector<JointSpring> springs;
+        for (const std::size_t joint : named) springs.push_back({joint, axis_of(used->world, joint, axis), spring});
+        used->world.set_springs(springs);
     });
 }
 

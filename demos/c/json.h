@@ -8,6 +8,7 @@
 #include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/fields_write.h"
 #include "demos/c/call.h"
+#include "host/files/json_depth.h"
 
 namespace scree::c {
 
@@ -15,7 +16,11 @@ namespace scree::c {
 inline const json_reading::Place root{nullptr, nullptr, 0};
 
 inline nlohmann::json json_given(const char* text, const char* name) {
-    return json_reading::parsed(text_of(text, name));
+    const std::string given = text_of(text, name);
+    constexpr std::size_t most_depth = 64;  // copies of values are recursive
+    if (const auto place = host::nested_deeper_than(most_depth, given))
+        throw Failure(SCREE_BAD_SCENE, *place + ": is nested in more than 64 arrays and objects", *place);
+    return json_reading::parsed(given);
 }
 
 template <class Value>

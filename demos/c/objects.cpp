@@ -2,12 +2,22 @@
 #include "demos/c/objects.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
+#include <exception>
 
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/json_text.h"
 
 namespace scree::c {
+
+WorldObject::~WorldObject() {
+    for (const auto& file : exports) try {
+            file->write();
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "scree: %s\n", error.what());
+        }
+}
 
 const demos::LoadedScene& WorldObject::as_subject() {
     if (!subject) {

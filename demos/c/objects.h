@@ -45,6 +45,8 @@ struct WorldObject {
         : machine(backend),
           shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
           world(std::move(made)) {}
+    WorldObject(const WorldObject&) = delete;
+    ~WorldObject();  // ends its exports
 
     demos::Backend machine;
     SceneDocument shown;  // how it is run and shown; without the scene, which the world has
@@ -63,7 +65,7 @@ struct ViewObject {
     std::shared_ptr<WorldObject> world;
 };
 struct ExportObject {
-    std::shared_ptr<WorldObject> world;
+    std::weak_ptr<WorldObject> world;
     std::shared_ptr<demos::Animation> file;
 };
 
@@ -77,7 +79,7 @@ public:
         else
             alone_ = std::unique_lock(object_->in_use, std::try_to_lock);
         if (!shared_.owns_lock() && !alone_.owns_lock())
-            throw Failure(SCREE_BUSY, "another thread is in the handle's scene or world");
+            throw Failure(SCREE_BUSY, "the scene or world is in use by another call");
     }
     auto& operator*() const { return *object_; }
     auto* operator->() const { return object_.get(); }

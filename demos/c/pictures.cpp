@@ -141,6 +141,7 @@ void write(const std::vector<Value>& values, Value* to) {
 
 void render(WorldObject& object, const scree_picture& wanted) {
     require_pixels(wanted.width, wanted.height);
+    if (!(wanted.seconds_before >= 0 && wanted.seconds_before <= 1e6)) refuse("seconds_before: must be between 0 and 1e6 s");
     const std::optional<std::size_t> copy = copy_of(object.world, wanted.copy);
     const host::Camera camera = wanted.camera_json != nullptr ? camera_given(wanted.camera_json, "camera_json")
                                                               : camera_of(object.as_subject().viewpoint);
@@ -171,10 +172,10 @@ std::vector<std::uint8_t> png_of(const void* pixels, int width, int height, int 
         std::memcpy(words.data(), pixels, values * sizeof(std::uint16_t));
         return host::png16_bytes(width, height, channels, words);
     }
-    if (channels != 3) refuse("channels: of 8 bits must be 3, are " + std::to_string(channels));
-    host::Image image{width, height, std::vector<std::uint8_t>(values / 3 * 4, 255), 8};
+    const std::size_t step = static_cast<std::size_t>(channels);
+    host::Image image{width, height, std::vector<std::uint8_t>(values / step * 4, 255), 8};
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
-        std::memcpy(&image.rgba[4 * i], static_cast<const std::uint8_t*>(pixels) + 3 * i, 3);
+        for (std::size_t k = 0; k < 3; ++k) image.rgba[4 * i + k] = static_cast<const std::uint8_t*>(pixels)[step * i + k % step];
     return host::png_bytes(image);
 }
 
@@ -260,9 +261,12 @@ scree_result scree_world_export(scree_world* world, const char* path, int every,
 scree_result scree_export_close(scree_export* made) {
     return called([&] {
         const std::shared_ptr<ExportObject> object = object_of(made);
-        const std::unique_lock lock(object->world->in_use, std::try_to_lock);
-        if (!lock.owns_lock()) throw Failure(SCREE_BUSY, "another thread is in the export's world");
+        if (const std::shared_ptr<WorldObject> world = object->world.lock()) {
+            const std::unique_lock lock(world->in_use, std::try_to_lock);
+            if (!lock.owns_lock()) throw Failure(SCREE_BUSY, "a call is in the export's world");
+            object->file->write();  // refused, it may be closed again
+            std::erase(world->exports, object->file);
+        }
         ended(HandleKind::export_file, made);
-        if (std::erase(object->world->exports, object->file) > 0) object->file->write();
     });
 }

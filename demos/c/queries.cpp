@@ -284,6 +284,7 @@ scree_result scree_world_debug_drawing(scree_world* world, const scree_debug_opt
         given(dots, "dots");
         const UsedWorld used(world);
         DebugWanted wanted;
+        bool none = false;  // of no bodies there is nothing
         if (options != nullptr) {
             const scree_debug_options chosen = options_of(options);
             wanted.shapes = chosen.shapes != 0;
@@ -293,10 +294,11 @@ scree_result scree_world_debug_drawing(scree_world* world, const scree_debug_opt
             if (chosen.segments != 0) wanted.segments = chosen.segments;
             if (chosen.line_length != 0) wanted.line_length = chosen.line_length;
             if (chosen.force_length != 0) wanted.force_length = chosen.force_length;
+            none = chosen.bodies != nullptr && chosen.body_count == 0;
             if (chosen.bodies != nullptr)
                 wanted.bodies = indices_of(chosen.bodies, chosen.body_count, used->world.scene().bodies.size(), "body");
         }
-        const DebugDrawing made = debug_drawing(used->world, wanted);
+        const DebugDrawing made = none ? DebugDrawing{} : debug_drawing(used->world, wanted);
         std::vector<scree_line> line_records(made.lines.size());
         for (std::size_t i = 0; i < made.lines.size(); ++i) {
             put(line_records[i].from, made.lines[i].from);

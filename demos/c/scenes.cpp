@@ -155,6 +155,10 @@ template <class Value>
 void take(const json& object, const Place& place, const char* key, Value& out) {
     optional(object, place, key, out);
 }
+void take_positive(const json& object, const Place& place, const char* key, float& out) {
+    take(object, place, key, out);
+    if (!(out > 0 && out <= 1000)) json_reading::refuse(place / key, "must be above 0 and at most 1000");
+}
 
 std::size_t add_car_of(Scene& scene, const json& value) {
     const Place list = root / "cars", place = list / scene.vehicles.size();
@@ -167,9 +171,9 @@ std::size_t add_car_of(Scene& scene, const json& value) {
     take(value, place, "friction", car.friction);
     take(value, place, "brake", car.brake);
     take(value, place, "speed", car.speed);
-    take(value, place, "size", car.size);
-    take(value, place, "density", car.density);
-    take(value, place, "hertz", car.hertz);
+    take_positive(value, place, "size", car.size);
+    take_positive(value, place, "density", car.density);
+    take_positive(value, place, "hertz", car.hertz);
     take(value, place, "damping_ratio", car.damping_ratio);
     return add_car(scene, car);
 }
@@ -226,7 +230,12 @@ const std::vector<std::pair<std::string, Set>>& parts() {
              check_world_fields(made);
              of.scene.fields = std::move(made);
          }},
-        {"gravity", [](SceneDocument& of, const json& value) { read(value, root / "gravity", of.scene.gravity); }},
+        {"gravity",
+         [](SceneDocument& of, const json& value) {
+             vec3 gravity;
+             read(value, root / "gravity", gravity);
+             of.scene.gravity = gravity;
+         }},
         {"duration", [](SceneDocument& of, const json& value) {
              float seconds = 0;
              read(value, root / "duration", seconds);
@@ -304,12 +313,16 @@ std::shared_ptr<SceneObject> loaded(const std::string& path, const scree_load_op
         }
     }
     std::vector<std::string> notes;
-    SceneDocument document = load_scene(path, options, &notes);
-    if (!is_scene_import(path)) {
-        checked(document.scene, &notes);
-        if (options.strict && !notes.empty()) throw SceneError("", notes.front());
+    try {
+        SceneDocument document = load_scene(path, options, &notes);
+        if (!is_scene_import(path)) {
+            checked(document.scene, &notes);
+            if (options.strict && !notes.empty()) throw SceneError("", notes.front());
+        }
+        return made_scene(std::move(document), std::move(notes));
+    } catch (const SceneError& error) {  // imports name their file themselves
+        throw Failure(SCREE_BAD_SCENE, path + ": " + error.what(), error.pointer);
     }
-    return made_scene(std::move(document), std::move(notes));
 }
 
 std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bodies, std::uint64_t seed) {
@@ -549,6 +562,7 @@ scree_result scree_mass_properties(const char* body_json, float density, float* 
     return called([&] {
         given(mass, "mass");
         given(inertia, "inertia");
+        if (!(density > 0 && density <= 1e12f)) refuse("density: must be above 0 and at most 1e12 kg/m^3");
         const Body body = body_of(json_given(body_json, "body_json"), root);
         const Scene scene = checked(Scene{vec3(0), {body}, {}});
         const MassProperties made = mass_properties(scene.bodies.front().shape, density);

@@ -13,13 +13,15 @@
  *
  * Texts and arrays that a call gives stay until the same thread makes its next call, those that release and scree_error_...()
  * left out: copy what you keep. Texts are UTF-8. Units are SI: m, kg, s, N, rad. Quaternions are x, y, z, w.
- * Bodies, joints and vehicles are numbered from 0 in the order in which they were added.
+ * Bodies, joints and vehicles are numbered from 0 in the order in which they were added; removing a joint shifts those behind it,
+ * and the index of a removed body is given to a new one. A text or array that a call takes is its caller's again when it returns.
  *
  * Structs that begin with `size` may grow: set it by SCREE_INIT, as in scree_world_options options =
  * SCREE_INIT(scree_world_options). Records in arrays may grow at their end: go from one to the next by the stride, which calls
  * take and give.
  *
- * Threads may use different worlds and scenes at once. A world or scene that another thread is in is refused (SCREE_BUSY).
+ * Threads may use different worlds and scenes at once. A call does not wait for another one in the same world, or around it
+ * (progress): it is refused (SCREE_BUSY). Scenes may be read by several.
  *
  * The same bits on every processor and device, as of scree's other languages. Descriptions in JSON have the keys of scene files:
  * scree_describe("schema", NULL, &text) gives their JSON schema. */
@@ -55,7 +57,7 @@ typedef enum scree_result {
     SCREE_FILE_ERROR = 6,     /* cannot be read or written, or is damaged */
     SCREE_DEVICE_ERROR = 7,   /* of a graphics device or its driver */
     SCREE_NO_MEMORY = 8,
-    SCREE_BUSY = 9,        /* another thread is in it */
+    SCREE_BUSY = 9,        /* another call is in it, on another thread or around this one */
     SCREE_STOPPED = 10,    /* by the progress callback */
     SCREE_IMPOSSIBLE = 11, /* not in this state: the message says why */
     SCREE_VIEWED = 12      /* views look into the tables that it would move */
@@ -79,8 +81,12 @@ SCREE_API void scree_close_devices(void);
 /* ---- Memory of the caller and of the library */
 
 #ifdef __cplusplus
-#define SCREE_INIT(type) \
-    { sizeof(type) }
+#define SCREE_INIT(type)         \
+    [] {                         \
+        type made{};             \
+        made.size = sizeof made; \
+        return made;             \
+    }()
 #else
 #define SCREE_INIT(type) \
     { .size = sizeof(type) }
@@ -176,14 +182,18 @@ typedef struct scree_world_options {
 
 /* The world keeps no tie to the scene. options may be null. */
 SCREE_API scree_result scree_world_create(const scree_scene* scene, const scree_world_options* options, scree_world** world);
-/* One copy of each scene; they are to differ in fields of bodies alone (see World in compute/world.h). */
+/* One copy of each scene. All have the same bodies and joints in the same order, which may differ in poses, velocities, masses,
+ * materials and the like, and in gravity. Settings are those of the first. */
 SCREE_API scree_result scree_world_create_copies(const scree_scene* const* scenes, size_t count,
                                                  const scree_world_options* options, scree_world** world);
-SCREE_API void scree_world_release(scree_world* world); /* ends its exports; null is allowed */
+/* Ends its exports. A call that is in the world goes on, and the world ends with it; so it does with the last of its views. null
+ * is allowed. */
+SCREE_API void scree_world_release(scree_world* world);
 
-/* done and count: steps. Returns 0 to go on. It must not use the world. */
+/* done and count: steps. Returns 0 to go on. What it asks of the world is refused. */
 typedef int (*scree_progress)(void* user, uint64_t done, uint64_t count);
-/* Performs the scene's timed events on the way. progress, about every 20 ms between steps, and user may be null. */
+/* Steps of 1 / rate s: 60 a second, or as the settings say. Performs the scene's timed events on the way. progress is called
+ * between steps, at least once in 20 ms or step; it and user may be null. */
 SCREE_API scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress progress, void* user);
 
 typedef struct scree_world_info {
@@ -237,7 +247,7 @@ SCREE_API scree_result scree_world_keep_state(scree_world* world);
 SCREE_API scree_result scree_world_roll_back(scree_world* world, uint64_t steps);       /* back, to a kept state */
 SCREE_API scree_result scree_world_kept_states(scree_world* world, scree_array* steps); /* uint64_t */
 SCREE_API scree_result scree_world_drop_states(scree_world* world);
-/* The scene as it is now, of one copy or of all. */
+/* The scene as it is now; in a world of several copies that of one. */
 SCREE_API scree_result scree_world_snapshot(scree_world* world, size_t copy, scree_scene** scene);
 
 /* ---- Copies */
@@ -258,22 +268,21 @@ typedef struct scree_body {
 /* Writes columns of all bodies: position (3 floats), orientation (4), velocity (3), angular_velocity (3), mass (1), asleep (1
  * byte), exists (1 byte). count: rows that the memory has, at least as many as bodies. */
 SCREE_API scree_result scree_world_read(scree_world* world, const scree_output* outputs, size_t output_count, size_t count);
-/* Of some: position, orientation of their authored frames ("origin_position", "origin_orientation"), force by which they are
- * touched
- * ("touch_force", 3). */
+/* Of some: position, orientation, velocity, angular_velocity; position and orientation of their authored frames
+ * ("origin_position", "origin_orientation"); force by which they are touched ("touch_force", 3). */
 SCREE_API scree_result scree_world_read_of(scree_world* world, const int64_t* bodies, size_t count, const scree_output* outputs,
                                            size_t output_count);
-/* Sets position, orientation, velocity and angular_velocity of some. */
+/* Sets position, orientation, velocity and angular_velocity of some; what is left out stays. Positions lie within 1e6 m of 0. */
 SCREE_API scree_result scree_world_write(scree_world* world, const int64_t* bodies, size_t count, const scree_column* columns,
                                          size_t column_count);
 /* Acts on dynamic ones: force and torque during the next step, impulse and angular_impulse at once; offset: of the point on which
  * force and impulse act, from the centre of mass, m, world axes. */
 SCREE_API scree_result scree_world_apply(scree_world* world, const int64_t* bodies, size_t count, const scree_column* columns,
                                          size_t column_count);
-/* Moves kinematic ones to position and orientation within so many steps. */
+/* Moves kinematic ones to position and orientation, both needed, within so many steps, 1 to 1e6. */
 SCREE_API scree_result scree_world_move(scree_world* world, const int64_t* bodies, size_t count, const scree_column* columns,
                                         size_t column_count, int steps);
-/* The bodies of a scene, added while the world runs: scree_body of each. */
+/* The bodies of a scene, without its joints, added while the world runs: scree_body of each. */
 SCREE_API scree_result scree_world_add_bodies(scree_world* world, const scree_scene* scene, scree_array* bodies);
 SCREE_API scree_result scree_world_remove_bodies(scree_world* world, const scree_body* bodies, size_t count);
 SCREE_API scree_result scree_world_bodies(scree_world* world, const int64_t* indices, size_t count, scree_body* bodies);
@@ -289,7 +298,7 @@ SCREE_API scree_result scree_world_set_exclusion(scree_world* world, size_t a, s
 SCREE_API scree_result scree_world_set(scree_world* world, const char* what, const char* json);
 SCREE_API scree_result scree_world_explode(scree_world* world, const float centre[3], float radius, float speed);
 
-/* A spring that holds a point of a body: anchor in its frame, target in the world. */
+/* A spring that holds a point of a body: anchor in its frame, target in the world. Four at a time. */
 typedef struct scree_grip_options {
     size_t size;
     float hertz, damping_ratio, max_acceleration, spin_damping; /* 0: as by default */
@@ -299,9 +308,10 @@ SCREE_API scree_result scree_world_grip(scree_world* world, size_t body, const f
 SCREE_API scree_result scree_world_move_grip(scree_world* world, size_t grip, const float target[3]);
 SCREE_API scree_result scree_world_release_grip(scree_world* world, size_t grip);
 
-/* The tables of the CPU, without a copy. While a view is held, what would move them is refused: adding and removing bodies,
- * restoring, rolling back. Rows are bodies in an order of the world's own: "ids" gives the body of each. A step changes what they
- * hold. name: "poses" (position at 0, orientation at 16 bytes), "velocities" (linear at 0, angular at 16), "ids" (uint32_t). */
+/* The tables of the CPU, without a copy; the rows stay until the view is released, also when the world was. While a view is held,
+ * what would move them is refused: adding and removing bodies, restoring, rolling back. Rows are bodies in an order of the
+ * world's own: "ids" gives the body of each. A step changes what they hold. name: "poses" (position at 0, orientation at 16
+ * bytes), "velocities" (linear at 0, angular at 16), "ids" (uint32_t). */
 typedef struct scree_view scree_view;
 SCREE_API scree_result scree_world_view(scree_world* world, const char* name, scree_view** view, scree_array* rows);
 SCREE_API void scree_view_release(scree_view* view);
@@ -346,7 +356,7 @@ typedef struct scree_event {
 typedef struct scree_event_options {
     size_t size;
     int contacts;    /* begin and end */
-    float hit_speed; /* m/s, least approach speed of a hit; needs contacts; infinity: none */
+    float hit_speed; /* m/s, least approach speed of a hit; needs contacts; 0: all that begin; infinity: none */
     int breaks, sleep, sensors;
 } scree_event_options;
 SCREE_API scree_result scree_world_set_events(scree_world* world, const scree_event_options* options);
@@ -381,14 +391,16 @@ SCREE_API scree_result scree_world_drives(scree_world* world, int axis, scree_ar
 SCREE_API scree_result scree_world_set_drives(scree_world* world, const int64_t* joints, size_t count, int axis,
                                               const scree_column* columns, size_t column_count);
 SCREE_API scree_result scree_world_set_motors(scree_world* world, const int64_t* joints, size_t count, int axis,
-                                              const scree_column* columns, size_t column_count); /* speed, max_force: both */
+                                              const scree_column* columns,
+                                              size_t column_count); /* speed, max_force: both needed */
 SCREE_API scree_result scree_world_set_springs(scree_world* world, const int64_t* joints, size_t count, int axis,
                                                const char* spring_json);
 SCREE_API scree_result scree_world_set_joint_coordinates(scree_world* world, const int64_t* joints, size_t count, int axis,
                                                          const scree_column* columns, size_t column_count); /* coordinate, rate */
 SCREE_API scree_result scree_world_apply_joint_forces(scree_world* world, const int64_t* joints, size_t count, int axis,
                                                       const scree_column* columns, size_t column_count); /* force */
-/* A joint in JSON; anchor and axis in the world, or both null if the JSON places it. */
+/* A joint in JSON, with bodies by index and anchors in their frames; or with anchor and axis here, in the world, else both null.
+ */
 SCREE_API scree_result scree_world_add_joint(scree_world* world, const char* joint_json, const float anchor[3],
                                              const float axis[3], size_t* index);
 SCREE_API scree_result scree_world_remove_joint(scree_world* world, size_t joint);
@@ -409,12 +421,12 @@ SCREE_API scree_result scree_world_reset_upright(scree_world* world, size_t vehi
 typedef struct scree_ray {
     float from[3], along[3]; /* along: unit */
     float reach;             /* m, above 0; infinity: no limit */
-    uint32_t mask;           /* of categories of bodies that it sees */
+    uint32_t mask;           /* of categories of bodies that it sees: 0xFFFFFFFF all, 0 none */
     uint32_t solid;          /* 1: a body in which it begins is hit at distance 0; 0: is not seen */
     uint32_t copy;
 } scree_ray;
 typedef struct scree_hit {
-    int64_t body; /* -1: none */
+    int64_t body; /* -1: none; then distance is infinite and point NaN */
     int32_t part; /* of a compound; of a mesh or height field the triangle */
     float distance, point[3], normal[3];
 } scree_hit;
@@ -466,7 +478,7 @@ SCREE_API scree_result scree_world_closest_points(scree_world* world, const scre
 
 /* ---- Drawing and exports */
 
-/* Lines and points of the world, for an engine's own drawing. */
+/* Lines and points of the world, for an engine's own drawing: by options, null for shapes, contacts and joints. */
 typedef struct scree_debug_options {
     size_t size;
     int shapes, contacts, joints, boxes;
@@ -484,7 +496,8 @@ typedef struct scree_dot {
 SCREE_API scree_result scree_world_debug_drawing(scree_world* world, const scree_debug_options* options, scree_array* lines,
                                                  scree_array* dots);
 
-/* An offscreen picture and its channels, into the caller's memory, rows from the top; null: is not drawn. */
+/* An offscreen picture and its channels, into the caller's memory, rows from the top; null: is not drawn. A side of color has 16
+ * to 16384 pixels, times 2, 3 or 4 for 4, 9 or 16 samples. */
 typedef struct scree_picture {
     size_t size;
     int width, height;       /* pixels, 1 to 16384 */

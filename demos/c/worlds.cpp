@@ -194,21 +194,17 @@ scree_result scree_world_create_copies(const scree_scene* const* scenes, size_t 
         if (chosen.copies != 0 && chosen.copies != count)
             refuse("copies: is " + std::to_string(chosen.copies) + ", and there are " + std::to_string(count) + " scenes");
         std::vector<ReadScene> all;
-        for (std::size_t i = 0; i < count; ++i) all.emplace_back(scenes[i]);
+        for (std::size_t i = 0; i < count; ++i)
+            if (!all.emplace_back(scenes[i])->document.events.empty())
+                refuse("scenes: number " + std::to_string(i) +
+                       " has timed events, which copies do not perform; take them out of it");
         const VaryCopy vary = [&](std::size_t copy, Scene& scene) { scene = all[copy]->document.scene; };
         *world = handle_of(made_world(all[0]->document, chosen, count, vary));
     });
 }
 
 void scree_world_release(scree_world* world) {
-    const std::shared_ptr<void> object = ended(HandleKind::world, world);
-    if (!object) return;
-    released([&] {
-        WorldObject& of = *static_cast<WorldObject*>(object.get());
-        const std::unique_lock lock(of.in_use);  // a step of another thread ends first
-        of.easels.clear();
-        for (const auto& file : std::exchange(of.exports, {})) file->write();
-    });
+    ended(HandleKind::world, world);  // it ends here, or with the call that is in it
 }
 
 scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress progress, void* user) {

@@ -67,6 +67,13 @@ def changed(kept, now):
         if words[0] == "struct" and words[1] not in NEVER_GROW and int(sizes.get(words[1], 0)) > int(words[2]):
             continue
         yield line
+    # A program of before leaves what was padding unset.
+    before = dict(line.split()[1:] for line in kept if line.startswith("struct "))
+    for line in now:
+        if line.startswith("member ") and line not in kept:
+            name = line.split()[1].split(".")[0]
+            if int(line.split()[-1]) < int(before.get(name, 0)):
+                yield line
 
 
 def main():

@@ -1,4 +1,5 @@
 // The C interface refuses bad input with a kind, a message and a place, and what it refuses changes nothing.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -73,6 +74,15 @@ TEST_CASE("c: descriptions are refused with the place of what is wrong, and add 
     refused(scree_scene_add_bodies(scene, ball, 1, none, 1, nullptr), SCREE_BAD_ARGUMENT, "position: is null");
     refused(scree_scene_add_bodies(scene, ball, std::numeric_limits<std::size_t>::max(), nullptr, 0, nullptr), SCREE_NO_MEMORY,
             "");
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    refused(scree_scene_add(scene, "joints", deep.c_str(), nullptr), SCREE_BAD_SCENE, "nested");
+    CHECK(scree_scene_set(scene, "gravity", "[1, 2, \"x\"]") == SCREE_BAD_SCENE);
+    CHECK(scene.get("gravity") == "[0, -9.81, 0]");
+    CHECK(scree_scene_add(scene, "cars", R"({"density": -1})", nullptr) == SCREE_BAD_SCENE);
+    float mass = 7, inertia[3];
+    refused(scree_mass_properties(ball, -1, &mass, inertia), SCREE_BAD_ARGUMENT, "density");
+    refused(scree_mass_properties(ball, no_number, &mass, inertia), SCREE_BAD_ARGUMENT, "density");
+    CHECK(mass == 7);
     std::size_t bodies = 0, joints = 0;
     ok(scree_scene_count(scene, "bodies", &bodies));
     ok(scree_scene_count(scene, "joints", &joints));
@@ -84,6 +94,9 @@ TEST_CASE("c: structs without their size, or with members that are not known, ar
     const Scene scene = balls(1);
     scree_world* world = nullptr;
     scree_world_options options{};
+    refused(scree_world_create(scene, &options, &world), SCREE_BAD_ARGUMENT, "SCREE_INIT");
+    options.size = 12;  // within a member
+    options.backend = "cpu";
     refused(scree_world_create(scene, &options, &world), SCREE_BAD_ARGUMENT, "SCREE_INIT");
     options.size = sizeof options;
     options.backend = "cuda";
@@ -155,6 +168,32 @@ TEST_CASE("c: a refused call leaves the world's bits as they are") {
     const scree_output output[] = {{"position", row, 0}};
     refused(scree_world_read(world, output, 1, 1), SCREE_BAD_ARGUMENT, "1 rows");
     CHECK(world.hash() == before);
+}
+
+TEST_CASE("c: of joints and bodies all change, or none") {
+    Scene scene = balls(3);
+    ok(scree_scene_add(scene, "joints", R"({"kind": {"hinge": {}}, "a": 1, "b": 2})", nullptr));
+    ok(scree_scene_add(scene, "joints", R"({"kind": {"ball": {}}, "a": 2, "b": 3})", nullptr));
+    const World world(scene);
+    const std::int64_t twice[] = {0, 0}, both[] = {0, 1};
+    const float speed[] = {1, no_number}, force[] = {5, 5};
+    const scree_column motors[] = {{"speed", speed, 0}, {"max_force", force, 0}};
+    CHECK(scree_world_set_motors(world, twice, 2, -1, motors, 2) == SCREE_BAD_SCENE);
+    CHECK(scree_world_set_motors(world, both, 2, -1, motors, 2) != SCREE_OK);
+    CHECK(scree_world_set_springs(world, both, 2, -1, R"({"stiffness": 5})") != SCREE_OK);
+    scree_array drives;
+    ok(scree_world_drives(world, -1, &drives));
+    CHECK(record<scree_drive>(drives, 0).motor_speed == 0);
+    CHECK(record<scree_drive>(drives, 0).stiffness == 0);
+    Scene broken = demo("glass");
+    const World glass(broken);
+    std::vector<std::uint8_t> exists(glass.info().bodies);
+    const scree_output output[] = {{"exists", exists.data(), 0}};
+    ok(scree_world_read(glass, output, 1, exists.size()));
+    const auto unborn = static_cast<std::int64_t>(std::find(exists.begin(), exists.end(), 0) - exists.begin());
+    REQUIRE(static_cast<std::size_t>(unborn) < exists.size());
+    const std::int64_t some[] = {1, unborn};
+    refused(scree_world_set_material(glass, some, 2, R"({"friction": 0.9})"), SCREE_BAD_ARGUMENT, "fragment");
 }
 
 // Calls with arguments that are right, wrong or senseless, in an order of chance: each returns, and what is refused leaves the

@@ -336,6 +336,28 @@ TEST_CASE("c: threads step different worlds at once, and one that is in use is r
     CHECK(asked.result == SCREE_BUSY);
 }
 
+TEST_CASE("c: a world that is released within its own progress goes on to the end of the step, and ends then") {
+    const scree::tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "a.glb").string();
+    const Scene scene = balls(2);
+    scree_world_options options = SCREE_INIT(scree_world_options);
+    options.backend = "cpu";
+    scree_world* world = nullptr;
+    ok(scree_world_create(scene, &options, &world));
+    scree_export* made = nullptr;
+    ok(scree_world_export(world, file.c_str(), 1, 0, &made));
+    const std::uintmax_t at_once = std::filesystem::file_size(file);
+    const scree_progress release = [](void* of, std::uint64_t, std::uint64_t) {
+        scree_world_release(static_cast<scree_world*>(of));
+        return 0;
+    };
+    ok(scree_world_step(world, 30, release, world));
+    refused(scree_world_step(world, 1, nullptr, nullptr), SCREE_BAD_HANDLE, "released");
+    CHECK(std::filesystem::file_size(file) > at_once);
+    ok(scree_export_close(made));  // its world has ended it
+    refused(scree_export_close(made), SCREE_BAD_HANDLE, "released");
+}
+
 TEST_CASE("c: pictures have their channels, and a PNG of them begins as one") {
     const World world(balls(1));
     constexpr int width = 64, height = 48;
@@ -379,6 +401,16 @@ TEST_CASE("c: an export is there at once, and whole when its world ends") {
         ok(scree_export_close(closed));
         CHECK(std::filesystem::file_size(first) > before);
         refused(scree_export_close(closed), SCREE_BAD_HANDLE, "released");
+        // One that cannot be written may be closed again.
+        const std::filesystem::path gone = folder.path() / "gone";
+        std::filesystem::create_directory(gone);
+        scree_export* third = nullptr;
+        ok(scree_world_export(world, (gone / "c.glb").string().c_str(), 1, 0, &third));
+        std::filesystem::remove_all(gone);
+        refused(scree_export_close(third), SCREE_FILE_ERROR, "c.glb");
+        std::filesystem::create_directory(gone);
+        ok(scree_export_close(third));
+        CHECK(std::filesystem::exists(gone / "c.glb"));
     }
     CHECK(std::filesystem::file_size(second) > at_once);
 }

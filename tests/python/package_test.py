@@ -1,4 +1,4 @@
-# The package itself: stubs, types, the examples of README and book, and the example scripts' first steps.
+# The package itself: types, the examples of README and book, and the example scripts' first steps.
 import os
 import pathlib
 import re
@@ -22,11 +22,6 @@ def has(module):
 
 
 class Package(unittest.TestCase):
-    @unittest.skipUnless(has("mypy.stubtest"), "mypy is not installed")
-    def test_the_stubs_are_true(self):
-        code, output = run(sys.executable, "-m", "mypy.stubtest", "scree", env={**os.environ, "MYPYPATH": os.path.dirname(scree.__path__[0])})
-        self.assertEqual(code, 0, output)
-
     @unittest.skipUnless(has("mypy"), "mypy is not installed")
     def test_the_types_are_right(self):
         with tempfile.TemporaryDirectory() as cache:
@@ -53,6 +48,35 @@ class Package(unittest.TestCase):
             with self.subTest(page=page.name):
                 code, output = run(sys.executable, "-c", block, cwd=tempfile.gettempdir())
                 self.assertEqual(code, 0, output)
+
+    def test_every_python_that_is_here_calls_the_library(self):
+        """Also those without numpy, of which the package says that it is missing."""
+        pythons = {os.path.realpath(found) for folder in [*os.environ["PATH"].split(os.pathsep), *map(str, pathlib.Path.home().glob(".pyenv/versions/*/bin"))]
+                   for found in pathlib.Path(folder).glob("python3.[0-9]*") if re.fullmatch(r"python3\.(9|[1-9]\d)", found.name)}
+        self.assertTrue(pythons)
+        program = """
+import ctypes, sys, types
+sys.modules["scree"] = package = types.ModuleType("scree")
+package.__path__ = [sys.argv[1]]
+from scree._library import LIBRARY, WorldOptions, check, sized
+scene, world, hash = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_uint64()
+check(LIBRARY.scree_scene_demo(b"stack", 0, 1, ctypes.byref(scene)))
+check(LIBRARY.scree_world_create(scene, ctypes.byref(sized(WorldOptions, backend=b"cpu")), ctypes.byref(world)))
+check(LIBRARY.scree_world_step(world, 30, None, None))
+check(LIBRARY.scree_world_hash(world, ctypes.byref(hash)))
+print(f"{hash.value:016x}")
+"""
+        world = scree.World(scree.demo("stack"), backend="cpu")
+        world.step(30)
+        for python in sorted(pythons):
+            with self.subTest(python=python):
+                code, output = run(python, "-c", program, scree.__path__[0])
+                self.assertEqual((code, output.strip()), (0, world.state_hash()))
+                code, output = run(python, "-c", "import numpy")
+                if code:
+                    code, output = run(python, "-c", "import scree")
+                    self.assertEqual(code, 1)
+                    self.assertIn("pip install numpy", output)
 
     def test_the_version_is_the_projects(self):
         self.assertIn(f"VERSION {scree.__version__} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))

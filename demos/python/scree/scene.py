@@ -312,10 +312,7 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
     name = os.fspath(path)
     with open(name, "rb"):  # an OSError with its number, for a file of any kind
         pass
-    try:
-        return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {}), allow_outside))
-    except SceneError as error:
-        raise SceneError(str(error) if _native.is_import(name) else f"{name}: {error}", error.pointer) from None
+    return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {}), allow_outside))
 
 
 def from_json(text: str) -> Scene:
