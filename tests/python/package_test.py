@@ -69,6 +69,8 @@ print(f"{hash.value:016x}")
         world = scree.World(scree.demo("stack"), backend="cpu")
         world.step(30)
         for python in sorted(pythons):
+            if run(python, "-c", "")[0]:
+                continue  # a stand-in for one that is not chosen
             with self.subTest(python=python):
                 code, output = run(python, "-c", program, scree.__path__[0])
                 self.assertEqual((code, output.strip()), (0, world.state_hash()))
