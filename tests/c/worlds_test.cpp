@@ -229,7 +229,7 @@ TEST_CASE("c: contacts and events are those of the C++ library") {
     CHECK(statistics.manifolds == 2);
 }
 
-TEST_CASE("c: joints are driven, told and placed; vehicles drive") {
+TEST_CASE("c: joints are driven, told and placed, and vehicles drive") {
     Scene scene = balls(2);
     std::size_t hinge = 9;
     ok(scree_scene_add(
