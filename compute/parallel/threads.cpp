@@ -50,11 +50,14 @@ private:
     std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> idle_;
 };
 
+// Of those that are compiled.
 int lanes_of_processor() {
-#if defined(__x86_64__)
+#if SCREE_WIDEST_LANES >= 16
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw"))
         return 16;
+#endif
+#if SCREE_WIDEST_LANES >= 8
     if (__builtin_cpu_supports("avx2")) return 8;
 #endif
     return 4;

@@ -63,8 +63,10 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
 }
 
 const WideStages* wide_stages(int most) {
-#if defined(__x86_64__)
+#if SCREE_WIDEST_LANES >= 16
     if (widest(most) == 16) return &wide_stages_16;
+#endif
+#if SCREE_WIDEST_LANES >= 8
     if (widest(most) == 8) return &wide_stages_8;
 #endif
     return widest(most) == 4 ? &wide_stages_4 : nullptr;
@@ -72,15 +74,17 @@ const WideStages* wide_stages(int most) {
 
 const WideBlockStages* wide_block_stages(std::size_t blocks, int most) {
     if (blocks < least_blocks) return nullptr;
-#if defined(__x86_64__)
+#if SCREE_WIDEST_LANES >= 16
     if (widest(most) == 16 && blocks > 8) return &wide_block_stages_16;
+#endif
+#if SCREE_WIDEST_LANES >= 8
     if (widest(most) >= 8 && blocks > 4) return &wide_block_stages_8;
 #endif
     return widest(most) >= 4 ? &wide_block_stages_4 : nullptr;
 }
 
 const WideJointStages* wide_joint_stages(int most) {
-#if defined(__x86_64__)
+#if SCREE_WIDEST_LANES >= 8
     if (widest(most) >= 8) return &wide_joint_stages_avx2;
 #endif
     return widest(most) >= 4 ? &wide_joint_stages_baseline : nullptr;
