@@ -31,7 +31,7 @@ enum class Motion {
 constexpr std::size_t no_body = static_cast<std::size_t>(-1);
 
 enum class Cutting {
-    voronoi,    // any shape but a plane: Voronoi cells of similar size (voro++)
+    voronoi,    // any shape but a plane: Voronoi cells of similar size
     boxes,      // a box into boxes
     splinters,  // Voronoi cells across the thinnest extent, finer towards the middle: panes
 };

@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree {
@@ -16,7 +17,7 @@ struct Stand {
     vec3 position;
     vec4 turn;
 
-    Stand(vec3 place, float heading) : position(place), turn(0, std::sin(heading / 2), 0, std::cos(heading / 2)) {}
+    Stand(vec3 place, float heading) : position(place), turn(0, portable::sin(heading / 2), 0, portable::cos(heading / 2)) {}
     vec3 at(vec3 place) const { return position + physics::rotate(turn, place); }
     vec3 along(vec3 direction) const { return physics::rotate(turn, direction); }
 };

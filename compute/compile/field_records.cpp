@@ -5,6 +5,7 @@
 
 #include "compute/compile/scene_compiler.h"
 #include "compute/scene/compound.h"
+#include "compute/scene/portable_math.h"
 
 namespace scree {
 
@@ -14,7 +15,7 @@ namespace {
 vec3 box_like(glm::dvec3 inertia, double volume) {
     const double sum = inertia.x + inertia.y + inertia.z;
     glm::dvec3 half = glm::sqrt(glm::max(1.5 * (glm::dvec3(sum) - 2.0 * inertia) / volume, glm::dvec3(1e-12)));
-    half *= std::cbrt(volume / (8 * half.x * half.y * half.z));
+    half *= portable::cbrt(volume / (8 * half.x * half.y * half.z));
     return vec3(half);
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "compute/scene/portable_math.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/joint/joint_axis.h"
 
@@ -167,7 +168,7 @@ bool swings_over(const physics::JointAxis& y, const physics::JointAxis& z, physi
     if (is(y, physics::AXIS_LOCKED) || is(z, physics::AXIS_LOCKED)) return false;
     if (flags & physics::JOINT_CONE) return !is(y, physics::AXIS_LIMITED);
     const auto farthest = [](const physics::JointAxis& axis) { return std::max(std::abs(axis.lower), std::abs(axis.upper)); };
-    return std::hypot(static_cast<double>(farthest(y)), static_cast<double>(farthest(z))) > std::numbers::pi - 1e-6;
+    return portable::hypot(static_cast<double>(farthest(y)), static_cast<double>(farthest(z))) > std::numbers::pi - 1e-6;
 }
 
 // Appends one block: its bodies, then its joints.

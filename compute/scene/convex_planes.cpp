@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "compute/scene/shape_geometry.h"
 
 namespace scree {
@@ -56,7 +57,7 @@ void TouchingPlanes::touch_around(double slope) {
     for (int k = 0; k < sides; ++k) {
         const double angle = 2 * std::numbers::pi * k / sides;
         // Rounded to float: the last bits of sine and cosine differ between C libraries.
-        touch({static_cast<float>(std::cos(angle)), slope, static_cast<float>(std::sin(angle))});
+        touch({static_cast<float>(portable::cos(angle)), slope, static_cast<float>(portable::sin(angle))});
     }
 }
 

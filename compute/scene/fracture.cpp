@@ -1,4 +1,4 @@
-// Cutting bodies: boxes by halving, other shapes into Voronoi cells (voro++, Rycroft, Chaos 19, 2009).
+// Cutting bodies: boxes by halving, other shapes into Voronoi cells.
 #include "compute/scene/fracture.h"
 
 #include <algorithm>
@@ -7,10 +7,11 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <string>
-#include <voro++/voro++.hh>
 
 #include "compute/scene/hull.h"
+#include "compute/scene/portable_math.h"
 #include "compute/scene/shape_geometry.h"
+#include "compute/scene/voronoi.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree {
@@ -70,49 +71,6 @@ std::vector<Body> halved(const Box& box, const Fracture& fracture) {
 }
 
 // ---- Voronoi cells
-struct Region {
-    std::vector<glm::dvec4> planes;  // outward unit normal; w: distance from the centre, m
-    dvec3 half;                      // half extents of its box, m
-
-    bool holds(dvec3 point) const {
-        return std::all_of(planes.begin(), planes.end(),
-                           [&](const glm::dvec4& plane) { return glm::dot(dvec3(plane), point) < 0.999 * plane.w; });
-    }
-};
-
-using Corners = std::vector<dvec3>;
-struct Cell {
-    Corners corners;
-    dvec3 centre;
-};
-
-std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& points) {
-    const dvec3 box = 1.001 * region.half;
-    const auto blocks = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(points.size()) / 4)));
-    voro::container container(-box.x, box.x, -box.y, box.y, -box.z, box.z, blocks, blocks, blocks, false, false, false, 8);
-    std::vector<voro::wall_plane> walls;
-    walls.reserve(region.planes.size());
-    for (const glm::dvec4& plane : region.planes) container.add_wall(walls.emplace_back(plane.x, plane.y, plane.z, plane.w));
-    for (std::size_t i = 0; i < points.size(); ++i) container.put(static_cast<int>(i), points[i].x, points[i].y, points[i].z);
-    std::vector<Cell> cells(points.size());
-    voro::c_loop_all loop(container);
-    voro::voronoicell cell;
-    if (!loop.start()) return {};
-    do {
-        if (!container.compute_cell(cell, loop)) continue;
-        const dvec3 at(loop.x(), loop.y(), loop.z());
-        Cell& made = cells[static_cast<std::size_t>(loop.pid())];
-        std::vector<double> corners;
-        cell.vertices(at.x, at.y, at.z, corners);
-        for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
-            made.corners.emplace_back(corners[k], corners[k + 1], corners[k + 2]);
-        cell.centroid(made.centre.x, made.centre.y, made.centre.z);
-        made.centre += at;
-    } while (loop.inc());
-    std::erase_if(cells, [](const Cell& one) { return one.corners.size() < 4; });
-    return cells;
-}
-
 // Random points in the region; fewer if the region fills next to nothing of its box. Two Lloyd iterations (1982): cells
 // of raw random points are slivers.
 std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& random) {
@@ -140,7 +98,7 @@ std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& rando
     std::vector<dvec3> points;
     for (std::size_t tries = 0; points.size() < count && tries < 1000 * count; ++tries) {
         const double part = (static_cast<double>(tries % count) + random.between(0.2, 0.8)) / static_cast<double>(count);
-        // A direction by rejection sampling: sine and cosine differ between C libraries.
+        // A direction by rejection sampling.
         const double x = random.between(-1, 1), y = random.between(-1, 1), length = std::sqrt(x * x + y * y);
         if (length > 1 || length < 0.1) continue;
         dvec3 point(0);
@@ -313,7 +271,7 @@ void require_sense(const Shape& shape, const Fracture& f) {
                             "parts bodies of their own, held together by joints that break");
     if (f.cutting == Cutting::boxes && !std::holds_alternative<Box>(shape))
         throw FractureError("cutting", "only a box can be cut into boxes; others: \"voronoi\", \"splinters\"");
-    if (std::pow(static_cast<double>(f.pieces), static_cast<double>(f.depth)) > most_in_all)
+    if (portable::pow(static_cast<double>(f.pieces), static_cast<double>(f.depth)) > most_in_all)
         throw FractureError("depth", "gives more than 10000 pieces of one body; ask for fewer pieces or less depth");
 }
 
@@ -333,7 +291,7 @@ std::shared_ptr<const Cut> Cuts::of(const Shape& shape, const Fracture& fracture
         const double part = mass_properties(piece.shape, piece.density).mass / whole;
         if (fracture.depth == 1) continue;
         Fracture deeper = fracture;
-        const auto weaker = static_cast<float>(std::cbrt(part * part));
+        const auto weaker = static_cast<float>(portable::cbrt(part * part));
         deeper.impulse *= weaker;
         deeper.momentum *= weaker;
         deeper.depth = fracture.depth - 1;

@@ -1,4 +1,5 @@
-// Convex hulls by qhull, with ordered faces and mass properties.
+// Convex hulls by qhull, with ordered faces and mass properties. Of qhull come only the corners of each face: its normals' last
+// bits and its faces' order differ between machines.
 #include "compute/scene/hull.h"
 
 extern "C" {
@@ -9,8 +10,10 @@ extern "C" {
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <string>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/collide/shape_data.h"
 
 namespace scree {
@@ -63,7 +66,7 @@ void require_inside(const std::vector<dvec3>& points) {
 
 struct Found {
     std::vector<std::uint32_t> corners;  // indices of points, in any order
-    dvec3 normal;
+    dvec3 normal;                        // nearly
 };
 
 // RAII for qhull's state. The C interface: the C++ one of the 2020 release does not compile as C++20.
@@ -104,17 +107,28 @@ std::vector<Found> faces_between(const std::vector<dvec3>& points, const std::st
     return Qhull().faces_between(points, options);
 }
 
-void sort_around(HullForm::Face& face, const std::vector<dvec3>& vertices) {
+// Counter-clockwise from outside, from the lowest on; `normal`: nearly that of the face.
+void sort_around(HullForm::Face& face, const std::vector<dvec3>& vertices, const dvec3& normal) {
     dvec3 middle(0);
+    std::ranges::sort(face.corners);
     for (const std::uint32_t corner : face.corners) middle += vertices[corner];
     middle /= static_cast<double>(face.corners.size());
-    const dvec3 u = glm::normalize(vertices[face.corners[0]] - middle);
-    const dvec3 v = glm::cross(face.normal, u);
+    const dvec3 u = glm::normalize(vertices[face.corners[0]] - middle), v = glm::cross(normal, u);
     const auto angle = [&](std::uint32_t corner) {
         const dvec3 arm = vertices[corner] - middle;
-        return std::atan2(glm::dot(arm, v), glm::dot(arm, u));
+        const double at = portable::atan2(glm::dot(arm, v), glm::dot(arm, u));
+        return at < 0 ? at + 2 * std::numbers::pi : at;
     };
-    std::sort(face.corners.begin(), face.corners.end(), [&](auto x, auto y) { return angle(x) < angle(y); });
+    std::sort(face.corners.begin() + 1, face.corners.end(), [&](auto x, auto y) { return angle(x) < angle(y); });
+}
+
+// The direction of the area within the corners.
+dvec3 normal_of(const HullForm::Face& face, const std::vector<dvec3>& vertices) {
+    dvec3 area(0);
+    const dvec3 from = vertices[face.corners[0]];
+    for (std::size_t k = 1; k + 1 < face.corners.size(); ++k)
+        area += glm::cross(vertices[face.corners[k]] - from, vertices[face.corners[k + 1]] - from);
+    return glm::normalize(area);
 }
 
 // Volume, centre and second moments, summed over tetrahedra from the origin to each triangle of a face.
@@ -176,12 +190,13 @@ HullForm hull_form(std::span<const glm::vec3> given) {
     for (const Found& face : found) {
         if (face.corners.size() < 3) continue;
         HullForm::Face& made = form.faces.emplace_back();
-        made.normal = face.normal;
         for (const std::uint32_t corner : face.corners) made.corners.push_back(used.at(corner));
-        sort_around(made, form.vertices);
+        sort_around(made, form.vertices, face.normal);
+        made.normal = normal_of(made, form.vertices);
         made.distance = -1e300;
         for (const dvec3& v : form.vertices) made.distance = std::max(made.distance, glm::dot(made.normal, v));
     }
+    std::ranges::sort(form.faces, {}, &HullForm::Face::corners);
     measure(form);
     return form;
 }

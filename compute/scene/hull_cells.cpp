@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
+
 namespace scree {
 
 namespace {
@@ -114,10 +116,10 @@ HullCells hull_cells(const HullForm& form) {
             const dvec3 middle = glm::normalize(side.direction(low + dvec2(width / 2)));
             double spread = 0;
             for (const dvec2 corner : corners)
-                spread = std::max(spread, std::acos(glm::dot(middle, glm::normalize(side.direction(corner)))));
+                spread = std::max(spread, portable::acos(glm::dot(middle, glm::normalize(side.direction(corner)))));
             for (std::size_t i = 0; i < form.faces.size(); ++i) {
-                const double angle = std::acos(std::clamp(glm::dot(middle, form.faces[i].normal), -1.0, 1.0));
-                looks[i] = {std::cos(std::max(angle - spread, 0.0)), i};
+                const double angle = portable::acos(std::clamp(glm::dot(middle, form.faces[i].normal), -1.0, 1.0));
+                looks[i] = {portable::cos(std::max(angle - spread, 0.0)), i};
             }
             const std::size_t listed = std::min<std::size_t>(looks.size(), physics::LISTED_FACES);
             std::partial_sort(looks.begin(), looks.begin() + static_cast<long>(std::min(listed + 1, looks.size())), looks.end(),

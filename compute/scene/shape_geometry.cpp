@@ -11,6 +11,7 @@
 #include "compute/scene/convex_planes.h"
 #include "compute/scene/hull.h"
 #include "compute/scene/mesh.h"
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/shapes.h"
 
 namespace scree {
@@ -121,13 +122,13 @@ vec3 size(const Cylinder& c) {
     return {c.radius, c.half_height, 0};
 }
 double reach(const Cylinder& c, dvec3 n) {
-    return std::hypot(n.x, n.z) * static_cast<double>(c.radius) + std::abs(n.y) * static_cast<double>(c.half_height);
+    return portable::hypot(n.x, n.z) * static_cast<double>(c.radius) + std::abs(n.y) * static_cast<double>(c.half_height);
 }
 vec3 extents(const Cylinder& c) {
     return {c.radius, c.half_height, c.radius};
 }
 float radius(const Cylinder& c) {
-    return std::hypot(c.radius, c.half_height);
+    return portable::hypot(c.radius, c.half_height);
 }
 MassProperties mass(const Cylinder& c, double density) {
     const double r = c.radius, h = c.half_height, m = density * std::numbers::pi * r * r * 2 * h;
@@ -144,7 +145,7 @@ vec3 size(const Cone& c) {
     return {c.radius, c.height, 0};
 }
 double reach(const Cone& c, dvec3 n) {
-    const double across = std::hypot(n.x, n.z);
+    const double across = portable::hypot(n.x, n.z);
     return std::max(0.75 * static_cast<double>(c.height) * n.y,
                     across * static_cast<double>(c.radius) - 0.25 * static_cast<double>(c.height) * n.y);
 }
@@ -152,7 +153,7 @@ vec3 extents(const Cone& c) {
     return {c.radius, 0.75f * c.height, c.radius};
 }
 float radius(const Cone& c) {
-    return std::max(0.75f * c.height, std::hypot(c.radius, 0.25f * c.height));
+    return std::max(0.75f * c.height, portable::hypot(c.radius, 0.25f * c.height));
 }
 MassProperties mass(const Cone& c, double density) {
     const double r = c.radius, h = c.height, m = density * std::numbers::pi * r * r * h / 3;

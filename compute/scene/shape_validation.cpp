@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compute/scene/mesh.h"
+#include "compute/scene/portable_math.h"
 #include "compute/schema/body.h"
 #include "shaders/physics/collide/shape_data.h"
 
@@ -157,7 +158,8 @@ const CheckedShapes::MadeHull& CheckedShapes::hull_of(const std::vector<vec3>& p
         // Moved points are rounded, and merged faces may split: repeated until nothing moves.
         for (int round = 0; round < 8; ++round) {
             const glm::dmat3 axes = principal_axes(form.inertia);
-            if (!form.simplified && axes == glm::dmat3(1) && glm::length(form.centre) <= 1e-5 * std::cbrt(form.volume)) break;
+            if (!form.simplified && axes == glm::dmat3(1) && glm::length(form.centre) <= 1e-5 * portable::cbrt(form.volume))
+                break;
             const glm::dquat turn = glm::normalize(glm::quat_cast(axes));
             one.centre += one.axes * form.centre;
             one.axes = glm::normalize(one.axes * turn);

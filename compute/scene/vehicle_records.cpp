@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree {
@@ -53,7 +54,7 @@ void place_wheels(physics::Vehicle& made, const Vehicle& vehicle, const Scene& s
         if (vehicle.wheels[k].steers) base += std::abs(wheel.ahead), ++steered;
     }
     // A skid-steered vehicle turns about one of its sides at full lock.
-    made.dynamics.tightest = steered > 0 ? std::tan(vehicle.steering.angle) * steered / std::max(base, 0.01f) : 1 / widest;
+    made.dynamics.tightest = steered > 0 ? portable::tan(vehicle.steering.angle) * steered / std::max(base, 0.01f) : 1 / widest;
     made.dynamics.turning = made.dynamics.tightest / vehicle.steering.time;
 }
 

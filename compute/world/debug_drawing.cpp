@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "compute/scene/hull.h"
+#include "compute/scene/portable_math.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/world.h"
 #include "shaders/physics/base/shapes.h"
@@ -47,7 +48,7 @@ struct Pen {
             std::max(1, static_cast<int>(std::lround(static_cast<float>(segments) * (end - begin) / glm::two_pi<float>())));
         const auto at = [&](int k) {
             const float angle = begin + (end - begin) * static_cast<float>(k) / static_cast<float>(pieces);
-            return middle + u * std::cos(angle) + v * std::sin(angle);
+            return middle + u * portable::cos(angle) + v * portable::sin(angle);
         };
         for (int k = 0; k < pieces; ++k) line(at(k), at(k + 1));
     }

@@ -11,6 +11,7 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene/portable_math.h"
 #include "compute/schema/range_text.h"
 #include "compute/world/world_impl.h"
 
@@ -82,9 +83,9 @@ Moving placed(const physics::Joint& record, const Relative& joint, const Moving&
 
 // The twist about x, then the swing about an axis across it (shaders/physics/joint/joint.h).
 dquat turn_of(double twist, double swing_y, double swing_z) {
-    const double swing = std::hypot(swing_y, swing_z), part = swing > 1e-12 ? std::sin(0.5 * swing) / swing : 0.5;
-    const dquat swung(std::cos(0.5 * swing), 0, part * swing_y, part * swing_z);
-    return swung * dquat(std::cos(0.5 * twist), std::sin(0.5 * twist), 0, 0);
+    const double swing = portable::hypot(swing_y, swing_z), part = swing > 1e-12 ? portable::sin(0.5 * swing) / swing : 0.5;
+    const dquat swung(portable::cos(0.5 * swing), 0, part * swing_y, part * swing_z);
+    return swung * dquat(portable::cos(0.5 * twist), portable::sin(0.5 * twist), 0, 0);
 }
 
 // The spin, in A's axes, at which the twist and swings have these rates.

@@ -131,7 +131,7 @@ private:
         const float way = (p_.max_speed + length(velocity.linear)) * p_.dt + (turn + turn * turn) * lever;
         return 4 * (reach + p_.speculative + way);
     }
-    static float length(const physics::vec3& v) { return std::hypot(v.x, v.y, v.z); }
+    static float length(const physics::vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
     void check_shape(std::size_t row, const physics::BodyProperties& body) {
         const bool hull = body.shape == physics::SHAPE_HULL, triangle = body.shape == physics::SHAPE_TRIANGLE;

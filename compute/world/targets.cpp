@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/scene/portable_math.h"
+
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -21,7 +23,7 @@ glm::dvec3 turn_between(vec4 from, vec4 to) {
     if (turn.w < 0) turn = -turn;
     const glm::dvec3 axis(turn.x, turn.y, turn.z);
     const double sine = glm::length(axis);
-    return sine > 1e-12 ? axis * (2 * std::atan2(sine, turn.w) / sine) : 2.0 * axis;
+    return sine > 1e-12 ? axis * (2 * portable::atan2(sine, turn.w) / sine) : 2.0 * axis;
 }
 
 struct Way {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/program/exit_status.h"
@@ -37,7 +38,7 @@ Hull round_hull(int vertices, float radius) {
     for (int i = 0; i < vertices; ++i) {
         const float y = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(vertices);
         const float ring = std::sqrt(1 - y * y), angle = golden * static_cast<float>(i);
-        hull.points.push_back(radius * vec3(ring * std::cos(angle), y, ring * std::sin(angle)));
+        hull.points.push_back(radius * vec3(ring * portable::cos(angle), y, ring * portable::sin(angle)));
     }
     return hull;
 }
@@ -58,7 +59,7 @@ Scene pairs_of(const Kind& a, const Kind& b, const std::vector<float>& distances
     Scene scene;
     scene.gravity = vec3(0);
     Random random(7);
-    const auto row = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(distances.size()))));
+    const auto row = static_cast<std::size_t>(std::ceil(portable::cbrt(static_cast<double>(distances.size()))));
     for (std::size_t i = 0; i < distances.size(); ++i) {
         Body first, second;
         first.motion = Motion::kinematic;

@@ -12,7 +12,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libscree-dev)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libxxhash-dev, libqhull-dev, libtinyxml2-dev, voro++-dev, libglm-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libxxhash-dev, libqhull-dev, libtinyxml2-dev, libglm-dev")
 if(SCREE_VULKAN)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libspng-dev, libtinyexr-dev, libvulkan-dev")
 endif()

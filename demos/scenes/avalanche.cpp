@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random_bodies.h"
 #include "demos/scenes/scene_builder.h"
@@ -18,7 +19,7 @@ constexpr int terraces = 5;
 // thousand.
 struct Valley {
     explicit Valley(std::size_t count)
-        : columns(std::max(6, static_cast<int>(std::lround(1.45 * std::cbrt(static_cast<double>(count)))))),
+        : columns(std::max(6, static_cast<int>(std::lround(1.45 * portable::cbrt(static_cast<double>(count)))))),
           length(cell * static_cast<float>(columns)),
           half_width(0.5f * length + 0.3f),
           layers(std::ceil(static_cast<float>(count) / static_cast<float>(columns * columns))),
@@ -30,7 +31,7 @@ struct Valley {
 
     float terrace_top() const { return riser * static_cast<float>(terraces); }
     float edge() const { return -tread * static_cast<float>(terraces); }  // x of the incline's lower end; the terraces end at 0
-    float surface(float x) const { return terrace_top() + (edge() - x) * std::tan(incline); }
+    float surface(float x) const { return terrace_top() + (edge() - x) * portable::tan(incline); }
 
     int columns;  // columns of stones, along the slope and across
     float length, half_width;
@@ -52,13 +53,14 @@ void add_valley(Scene& scene, const Valley& v) {
     const float t = v.thickness, friction = 0.25f;
     scene.bodies.push_back(ground(0.7f));
     // The incline's surface passes through (edge, terrace_top) and extends past the last stone to an upright wall.
-    const vec3 out(std::sin(v.incline), std::cos(v.incline), 0), down(std::cos(v.incline), -std::sin(v.incline), 0);
-    const float half_length = 0.5f * (v.length / std::cos(v.incline) + 2 * cell);
+    const vec3 out(portable::sin(v.incline), portable::cos(v.incline), 0),
+        down(portable::cos(v.incline), -portable::sin(v.incline), 0);
+    const float half_length = 0.5f * (v.length / portable::cos(v.incline) + 2 * cell);
     const vec4 turn = turned({0, 0, 1}, -v.incline);
     const vec3 middle = vec3(v.edge(), v.terrace_top(), 0) - down * half_length;
     scene.bodies.push_back(fixed_box(middle - out * t, {half_length, t, v.half_width}, friction, turn));
     add_walls(scene, middle + out * (0.5f * (v.wall - t)), {half_length, 0.5f * (v.wall + t), 0.4f * t}, friction, turn, v);
-    const float back = v.edge() - v.length - 0.1f, back_wall = 0.5f * (v.wall / std::cos(v.incline) + t);
+    const float back = v.edge() - v.length - 0.1f, back_wall = 0.5f * (v.wall / portable::cos(v.incline) + t);
     scene.bodies.push_back(
         fixed_box({back - 0.4f * t, v.surface(back) - t + back_wall, 0}, {0.4f * t, back_wall, v.half_width}, friction));
     for (int i = 0; i < terraces; ++i) {
@@ -98,7 +100,7 @@ DemoScene avalanche(const DemoOptions& options) {
             Body stone = random_mixed(reach, random);
             const float x = v.edge() - cell * (static_cast<float>(i % side) + 0.5f);
             const float z = cell * (static_cast<float>(i / side % side) - 0.5f * static_cast<float>(side - 1));
-            const float above = cell * (static_cast<float>(i / (side * side)) + 0.75f) / std::cos(v.incline);
+            const float above = cell * (static_cast<float>(i / (side * side)) + 0.75f) / portable::cos(v.incline);
             stone.position = vec3(x, v.surface(x) + above, z) + stray(reach, random);
             stone.density = 2600;
             stone.friction = 0.35f;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -67,7 +68,7 @@ std::size_t add_crane(Scene& scene, vec3 hook, float mast, float width) {
     for (const float end : {hook.x + 0.6f, tail - 0.3f}) {  // tie bars of the jib
         const vec3 from(mast, peak - 0.1f, hook.z), to(end, top + 0.1f, hook.z), along = to - from;
         scene.bodies.push_back(fixed_box(0.5f * (from + to), {0.5f * glm::length(along), 0.05f, 0.05f}, 0.6f,
-                                         turned({0, 0, 1}, std::atan2(along.y, along.x))));
+                                         turned({0, 0, 1}, portable::atan2(along.y, along.x))));
     }
     return jib;
 }
@@ -76,7 +77,7 @@ std::size_t add_crane(Scene& scene, vec3 hook, float mast, float width) {
 std::size_t add_wrecker(Scene& scene, std::size_t jib, vec3 hook, float angle) {
     constexpr int links = 11;
     constexpr float length = 0.5f, radius = 0.7f;
-    const vec3 down(0, -std::cos(angle), -std::sin(angle));
+    const vec3 down(0, -portable::cos(angle), -portable::sin(angle));
     Body link;
     link.shape = Capsule{0.09f, 0.5f * length - 0.09f};
     link.orientation = turned({1, 0, 0}, angle);
@@ -203,7 +204,7 @@ DemoScene glass(const DemoOptions& options) {
 // Five fragments each: 2,000 bodies have 10,000.
 DemoScene shatter(const DemoOptions& options) {
     const auto count = static_cast<float>(options.bodies);
-    const float spacing = 1.25f, side = std::max(2.0f, std::ceil(std::cbrt(count)));
+    const float spacing = 1.25f, side = std::max(2.0f, std::ceil(portable::cbrt(count)));
     const float pit = 0.5f * spacing * side + 0.7f;
     Scene scene;
     scene.bodies.push_back(ground());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random_bodies.h"
 #include "demos/scenes/scene_builder.h"
@@ -53,7 +54,7 @@ void add_basin(Scene& scene) {
     constexpr float thick = 0.15f, high = 0.6f;
     for (int k = 0; k < 8; ++k) {
         const float angle = static_cast<float>(k) * 45 * degrees;
-        const vec3 outward(std::sin(angle), 0, std::cos(angle));
+        const vec3 outward(portable::sin(angle), 0, portable::cos(angle));
         scene.bodies.push_back(fixed_box(outward * half_basin + vec3(0, high, 0), {0.45f * half_basin, high, thick}, 0.4f,
                                          turned({0, 1, 0}, angle)));
     }

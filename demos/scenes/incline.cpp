@@ -3,27 +3,28 @@
 
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/scene_builder.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
 
 vec3 Incline::down() const {
-    return vec3(std::cos(angle), -std::sin(angle), 0);
+    return vec3(portable::cos(angle), -portable::sin(angle), 0);
 }
 vec3 Incline::out() const {
-    return vec3(std::sin(angle), std::cos(angle), 0);
+    return vec3(portable::sin(angle), portable::cos(angle), 0);
 }
 double Incline::along() const {
-    return earth_gravity * std::sin(static_cast<double>(angle));
+    return earth_gravity * portable::sin(static_cast<double>(angle));
 }
 double Incline::across() const {
-    return earth_gravity * std::cos(static_cast<double>(angle));
+    return earth_gravity * portable::cos(static_cast<double>(angle));
 }
 
 std::size_t add_lane(Scene& scene, const Incline& incline, float z, Body body, float height, float friction, float clear) {
     const float thickness = 0.2f;
-    const vec3 centre(0, incline.half_length * std::sin(incline.angle) + thickness, z);
+    const vec3 centre(0, incline.half_length * portable::sin(incline.angle) + thickness, z);
     const vec4 turn = turned({0, 0, 1}, -incline.angle);
     scene.bodies.push_back(fixed_box(centre, {incline.half_length, thickness, incline.half_width}, friction, turn));
     body.friction = friction;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "demos/suite/joint_checks.h"
@@ -26,7 +27,7 @@ std::size_t add_gear(Scene& scene, vec3 centre, float pitch_radius, int teeth, f
     scene.joints.push_back(joint_at(scene, hinge, the_world, middle, centre, {0, 0, 1}));
     for (int i = 0; i < teeth; ++i) {
         const float angle = phase + 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(teeth);
-        const vec3 out(std::cos(angle), std::sin(angle), 0);
+        const vec3 out(portable::cos(angle), portable::sin(angle), 0);
         scene.bodies.push_back(
             box_at(centre + out * (0.5f * (hub + tip)), {0.5f * (tip - hub), 0.14f, thickness}, turned({0, 0, 1}, angle)));
         scene.bodies.back().friction = 0.1f;
@@ -43,7 +44,7 @@ double turn_of(const Trace& trace, std::size_t slot) {
         // The rotation q p* between two moments, about the world's z axis.
         const double z = static_cast<double>(q.z * p.w - q.w * p.z - q.x * p.y + q.y * p.x);
         const double w = static_cast<double>(q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z);
-        turn += 2 * std::atan2(w < 0 ? -z : z, std::abs(w));
+        turn += 2 * portable::atan2(w < 0 ? -z : z, std::abs(w));
     }
     return turn;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -17,7 +18,7 @@ constexpr int links = 20;
 // Adds a chain that hangs from `top` at `angle` (rad) from the vertical, with a ball of `load` link masses at its
 // end.
 void add_chain(Scene& scene, vec3 top, float angle, float load) {
-    const vec3 down(std::sin(angle), -std::cos(angle), 0);
+    const vec3 down(portable::sin(angle), -portable::cos(angle), 0);
     const vec4 turn = turned({0, 0, 1}, angle);
     std::size_t before = the_world;
     for (int i = 0; i < links; ++i) {
@@ -138,7 +139,7 @@ DemoScene bridge(const DemoOptions& options) {
         const vec3 from = edge(i), to = edge(i + 1);
         const float length = glm::distance(from, to);
         scene.bodies.push_back(box_at((from + to) * 0.5f, {0.5f * length - 0.01f, 0.05f, 1.2f},
-                                      turned({0, 0, 1}, std::atan2(to.y - from.y, to.x - from.x))));
+                                      turned({0, 0, 1}, portable::atan2(to.y - from.y, to.x - from.x))));
         scene.bodies.back().density = 600;
         const std::size_t now = scene.bodies.size() - 1;
         for (const float side : {-1.1f, 1.1f})
@@ -220,7 +221,7 @@ DemoScene pendulums(const DemoOptions&) {
     std::vector<Swinging> all;
     const auto add = [&](Body body, float lever, float angle, float z, const JointKind& kind, bool rod) {
         const vec3 pivot(0, 4, z);
-        const vec3 arm(std::sin(angle), -std::cos(angle), 0);
+        const vec3 arm(portable::sin(angle), -portable::cos(angle), 0);
         body.position = pivot + arm * lever;
         body.orientation = turned({0, 0, 1}, angle);
         scene.bodies.push_back(body);

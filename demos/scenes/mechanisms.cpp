@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "demos/suite/analytic_checks.h"
@@ -30,7 +31,7 @@ std::size_t add_seesaw(Scene& scene, float z, float left_density, float right_de
 // Tilt of the plank, degrees; > 0 if its right end is down.
 double slant(const BodyState& plank) {
     const vec3 along = physics::rotate(plank.orientation, vec3(1, 0, 0));
-    return -std::asin(std::clamp(static_cast<double>(along.y), -1.0, 1.0)) / degrees;
+    return -portable::asin(std::clamp(static_cast<double>(along.y), -1.0, 1.0)) / degrees;
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ DemoScene dominoes(const DemoOptions& options) {
     scene.bodies.push_back(ground(0.8f));
     vec3 place(0, half.y, 0), low(1e9f), high(-1e9f);
     for (int i = 0; i < count; ++i) {
-        const float heading = swing * std::sin(two_pi * static_cast<float>(i) / 30);
+        const float heading = swing * portable::sin(two_pi * static_cast<float>(i) / 30);
         Body domino = box_at(place, half, turned({0, 1, 0}, -heading));
         domino.friction = 0.3f;
         if (i == 0) {  // pushed: rotates about its front edge
@@ -104,7 +105,7 @@ DemoScene dominoes(const DemoOptions& options) {
         low = glm::min(low, place - vec3(0.6f, half.y, 0.6f));
         high = glm::max(high, place + vec3(1.2f, half.y, 0.6f));
         scene.bodies.push_back(domino);
-        place += vec3(std::cos(heading), 0, std::sin(heading)) * spacing;
+        place += vec3(portable::cos(heading), 0, portable::sin(heading)) * spacing;
     }
     for (Body& body : scene.bodies) body.position -= vec3((low.x + high.x) / 2, 0, (low.z + high.z) / 2);
     const vec3 middle((low.x + high.x) / 2, 0, (low.z + high.z) / 2);

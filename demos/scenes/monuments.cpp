@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -27,7 +28,7 @@ DemoScene ring(const DemoOptions& options) {
     const std::size_t around = std::max<std::size_t>(8, options.bodies / courses);
     const float step = 360 * degrees / static_cast<float>(around);
     // The inner edges of neighbours are a head joint apart.
-    const float radius = (brick.x + 0.5f * head_joint) / std::tan(0.5f * step) + brick.z;
+    const float radius = (brick.x + 0.5f * head_joint) / portable::tan(0.5f * step) + brick.z;
     Scene scene;
     scene.bodies.push_back(ground());
     Random random(options.seed);
@@ -36,7 +37,8 @@ DemoScene ring(const DemoOptions& options) {
         for (std::size_t k = 0; k < around; ++k) {
             const float angle = step * (static_cast<float>(k) + (course % 2 == 1 ? 0.5f : 0.0f));
             const float out = radius + random.between(0, 0.002f);
-            scene.bodies.push_back(box_at({out * std::sin(angle), y, out * std::cos(angle)}, brick, turned({0, 1, 0}, angle)));
+            scene.bodies.push_back(
+                box_at({out * portable::sin(angle), y, out * portable::cos(angle)}, brick, turned({0, 1, 0}, angle)));
         }
     }
     const float outer = radius + 2 * brick.z, height = 2 * brick.y * static_cast<float>(courses);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random_bodies.h"
 #include "demos/scenes/scene_builder.h"
@@ -16,7 +17,7 @@ constexpr float pile_cell = 2 * pile_reach;
 // Bodies in a lattice above a pit that is twice as wide as the lattice is high.
 DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), float smallest_reach) {
     const std::size_t count = options.bodies;
-    const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))));
+    const int side = std::max(2, static_cast<int>(std::ceil(portable::cbrt(2.0 * static_cast<double>(count)))));
     Scene scene;
     scene.bodies.push_back(ground());
     const float half = 0.5f * pile_cell * static_cast<float>(side) + 0.1f;

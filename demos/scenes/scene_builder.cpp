@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "demos/film/camera.h"
 
 namespace scree::demos {
 
 vec4 turned(vec3 unit_axis, float angle) {
-    return vec4(unit_axis * std::sin(angle / 2), std::cos(angle / 2));
+    return vec4(unit_axis * portable::sin(angle / 2), portable::cos(angle / 2));
 }
 
 Hull prism(int sides, float radius, float half_height) {
@@ -18,7 +19,7 @@ Hull prism(int sides, float radius, float half_height) {
     for (int k = 0; k < sides; ++k) {
         const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
         for (const float y : {-half_height, half_height})
-            hull.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+            hull.points.emplace_back(radius * portable::cos(angle), y, radius * portable::sin(angle));
     }
     return hull;
 }
@@ -70,7 +71,8 @@ Viewpoint view_of(vec3 low, vec3 high, float azimuth, float elevation) {
 
 Viewpoint view_of(const std::vector<vec3>& points, float azimuth, float elevation) {
     const float a = azimuth * degrees, e = elevation * degrees;
-    const vec3 back(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));  // from the target to the eye
+    const vec3 back(portable::sin(a) * portable::cos(e), portable::sin(e),
+                    portable::cos(a) * portable::cos(e));  // from the target to the eye
     return fitted(points, back, 35, 16.0f / 9);
 }
 

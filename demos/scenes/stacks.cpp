@@ -1,6 +1,7 @@
 // Stability: resting bodies, columns, a wall and pyramids.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -61,7 +62,7 @@ Promise stands(double drift, double penetration, const Shaking& shaking = {}) {
 
 double sideways_of(const Trace& trace, std::size_t body) {
     const vec3 way = trace.end[body].position - trace.start[body].position;
-    return std::hypot(way.x, way.z);
+    return portable::hypot(way.x, way.z);
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ DemoScene stack80(const DemoOptions& options) {
         double fallen = 0;
         for (std::size_t i = 2; i <= count; ++i) {
             const vec3 apart = trace.end[i].position - trace.end[i - 1].position;
-            fallen += !(std::hypot(apart.x, apart.z) < half && apart.y > half);
+            fallen += !(portable::hypot(apart.x, apart.z) < half && apart.y > half);
         }
         return fallen;
     });

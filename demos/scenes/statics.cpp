@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/scene_builder.h"
 
 namespace scree::demos {
@@ -23,7 +24,7 @@ std::vector<std::size_t> add_arch(Scene& scene, const Arch& arch, vec3 centre) {
         vec3 middle(0);
         for (const int end : {i, i + 1}) {
             const double angle = std::numbers::pi * end / arch.stones;
-            const vec3 out(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0);
+            const vec3 out(static_cast<float>(portable::cos(angle)), static_cast<float>(portable::sin(angle)), 0);
             for (const float r : {arch.radius - half, arch.radius + half})
                 for (const float z : {-0.1f * arch.radius, 0.1f * arch.radius})
                     corners.push_back(centre + out * r + vec3(0, 0, z));
@@ -54,12 +55,12 @@ std::size_t add_rope(Scene& scene, const Rope& rope) {
         const float angle =
             std::numbers::pi_v<float> * (1 - static_cast<float>(std::clamp(i, 0, around)) / static_cast<float>(around));
         const float below = length * static_cast<float>(std::max({0, -i, i - around}));
-        ends.emplace_back(radius * std::cos(angle), radius * std::sin(angle) - below, rope.z);
+        ends.emplace_back(radius * portable::cos(angle), radius * portable::sin(angle) - below, rope.z);
     }
     std::size_t before = no_body;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const vec3 along = ends[i + 1] - ends[i];
-        const vec4 orientation = turned({0, 0, 1}, std::atan2(along.y, along.x) - 90 * degrees);
+        const vec4 orientation = turned({0, 0, 1}, portable::atan2(along.y, along.x) - 90 * degrees);
         const std::size_t link =
             add_body(scene, Capsule{link_radius, 0.4f * length}, 0.5f * (ends[i] + ends[i + 1]), orientation);
         scene.bodies.back().friction = rope.friction * rope.friction;  // the peg has 1, and the pair the geometric mean

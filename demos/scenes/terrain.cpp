@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random_bodies.h"
 #include "demos/scenes/scene_builder.h"
@@ -47,7 +48,7 @@ constexpr std::uint32_t side_points = 61;
 // Height of the terrain, m: a bowl with hills, higher on one side.
 float hill(float x, float z) {
     const float r = std::sqrt(x * x + z * z) / valley_radius;
-    const float waves = std::sin(0.45f * x + 0.6f) * std::cos(0.38f * z) + 0.5f * std::sin(0.9f * z + 0.7f * x);
+    const float waves = portable::sin(0.45f * x + 0.6f) * portable::cos(0.38f * z) + 0.5f * portable::sin(0.9f * z + 0.7f * x);
     return 13 * r * r - 0.22f * x + 0.9f * waves * std::min(1.0f, 2 * r);
 }
 
@@ -66,7 +67,7 @@ double height_at(const Trace& trace, vec3 at) {
 
 // ---- the bowl under the staircase, of demos/scenes/staircase
 double bowl_at(const Trace&, vec3 at) {
-    const double r = std::min(4.0, std::hypot(static_cast<double>(at.x), static_cast<double>(at.z)));
+    const double r = std::min(4.0, portable::hypot(static_cast<double>(at.x), static_cast<double>(at.z)));
     return 1.6 * (r / 4) * (r / 4) - 0.05;  // tolerance for the triangulation of the paraboloid
 }
 
@@ -77,7 +78,7 @@ Claim come_into_the_bowl(double part) {
                         for (std::size_t i = 0; i < trace.end.size(); ++i) {
                             if (trace.scene.bodies[i].motion != Motion::dynamic) continue;
                             all += 1;
-                            inside += std::hypot(trace.end[i].position.x, trace.end[i].position.z) < 4;
+                            inside += portable::hypot(trace.end[i].position.x, trace.end[i].position.z) < 4;
                         }
                         return all > 0 ? inside / all : 0;
                     });
@@ -96,7 +97,8 @@ DemoScene terrain(const DemoOptions& options) {
     Scene scene;
     scene.bodies.push_back({.name = "hills", .motion = Motion::fixed, .shape = std::move(field), .friction = 0.4f});
     Random random(options.seed);
-    const auto side = std::max<std::size_t>(4, static_cast<std::size_t>(std::cbrt(2.0 * static_cast<double>(options.bodies))));
+    const auto side =
+        std::max<std::size_t>(4, static_cast<std::size_t>(portable::cbrt(2.0 * static_cast<double>(options.bodies))));
     constexpr float largest = 0.6f;
     // Place the lattice above the highest terrain below it.
     const float half = 1.025f * largest * static_cast<float>(side);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/driving.h"
 #include "demos/scenes/scene_builder.h"
@@ -38,7 +39,7 @@ Course course() {
     to(2.5f, 100, 9, true);
     for (int i = 0; i <= 12; ++i) {
         const float angle = pi * static_cast<float>(i) / 12;
-        to(c.centre.x - c.bend * std::cos(angle), c.centre.z + c.bend * std::sin(angle), 10.5f, i == 6);
+        to(c.centre.x - c.bend * portable::cos(angle), c.centre.z + c.bend * portable::sin(angle), 10.5f, i == 6);
     }
     to(44, 104, 11, true);
     to(44, 78, 10);
@@ -65,7 +66,7 @@ void add_bank(Scene& scene, const Course& c) {
     Mesh mesh;
     for (std::uint32_t i = 0; i <= sections; ++i) {
         const float angle = pi * static_cast<float>(i) / sections;
-        const vec3 outward(-std::cos(angle), 0, std::sin(angle));
+        const vec3 outward(-portable::cos(angle), 0, portable::sin(angle));
         const float part = std::min(1.0f, 4 * std::min(angle, pi - angle) / pi);
         mesh.vertices.push_back(c.centre + outward * (c.bend - half_width) + vec3(0, 0.005f, 0));
         mesh.vertices.push_back(c.centre + outward * (c.bend + half_width) +
@@ -217,7 +218,7 @@ DemoScene cars(const DemoOptions& options) {
         const int points = std::max(24, static_cast<int>(radius));
         const float speed = std::min(std::sqrt(4 * radius), 20.0f);  // 4 m/s^2 of lateral acceleration
         std::vector<WayPoint> route;
-        const auto at = [&](float angle) { return vec3(radius * std::cos(angle), 0, -radius * std::sin(angle)); };
+        const auto at = [&](float angle) { return vec3(radius * portable::cos(angle), 0, -radius * portable::sin(angle)); };
         for (int i = 0; i < points; ++i)
             route.push_back({at(2 * pi * static_cast<float>(i) / static_cast<float>(points)), speed});
         for (int i = 0; i < places && made < count; ++i, ++made) {
@@ -237,7 +238,7 @@ DemoScene cars(const DemoOptions& options) {
             double farthest = 0;
             for (std::size_t k = 0; k < chassis.size(); ++k) {
                 const vec3 place = trace.end[chassis[k]].position;
-                farthest = std::max(farthest, std::abs(static_cast<double>(std::hypot(place.x, place.z) - radii[k])));
+                farthest = std::max(farthest, std::abs(static_cast<double>(portable::hypot(place.x, place.z) - radii[k])));
             }
             return farthest;
         });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
@@ -56,7 +57,7 @@ double bounce_error(const Trace& trace, const Dropped& one) {
     double most = 0;
     for (int k = 0; k < one.bounces; ++k) {
         const auto index = static_cast<std::size_t>(k);
-        const double expected = one.height * std::pow(one.restitution, 2 * (k + 1));
+        const double expected = one.height * portable::pow(one.restitution, 2 * (k + 1));
         const double top = index < reached.size() ? one.height + reached[index] : 0;
         most = std::max(most, 100 * std::abs(top - expected) / (expected > 0 ? expected : one.height));
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
@@ -110,7 +111,7 @@ Claim all_within(vec3 low, vec3 high) {
 
 double tilt(const BodyState& body, vec3 axis) {
     const double up = physics::rotate(body.orientation, axis).y;
-    return std::acos(std::clamp(up, -1.0, 1.0)) * 180 / std::numbers::pi;
+    return portable::acos(std::clamp(up, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 double median_step(const Trace& trace, double from, double to) {

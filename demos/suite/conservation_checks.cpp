@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/scene_builder.h"
 #include "demos/suite/analytic_checks.h"
 #include "shaders/physics/base/arithmetic.h"
@@ -90,7 +91,7 @@ Claim each_turns_over(Indices watched, vec3 axis, double limit) {
                                 const vec3 now = physics::rotate(moment.bodies.at(slot).orientation, axis);
                                 cosine = std::min(cosine, static_cast<double>(glm::dot(first, now)));
                             }
-                            least = std::min(least, std::acos(std::max(cosine, -1.0)) / static_cast<double>(degrees));
+                            least = std::min(least, portable::acos(std::max(cosine, -1.0)) / static_cast<double>(degrees));
                         }
                         return least;
                     });

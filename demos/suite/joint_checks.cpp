@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
@@ -55,7 +56,7 @@ std::vector<double> passages(const Trace& trace, const Swinging& one) {
 // Period of a physical pendulum at finite amplitude, by the arithmetic-geometric mean (Carvalhaes and Suppes, Am. J.
 // Phys. 76, 2008).
 double period_of(const Swinging& one, double gravity) {
-    double a = 1, b = std::cos(one.angle / 2);
+    double a = 1, b = portable::cos(one.angle / 2);
     for (int i = 0; i < 8; ++i) {
         const double mean = (a + b) / 2;
         b = std::sqrt(a * b);
@@ -111,7 +112,7 @@ Claim swings_keep_energy(std::vector<Swinging> pendulums, double part) {
                        const double gravity = glm::length(glm::dvec3(trace.scene.gravity));
                        double worst = trace.moments.empty() ? no_number : 0;
                        for (const Swinging& one : pendulums) {
-                           const double all = one.mass * gravity * one.lever * (1 - std::cos(one.angle));
+                           const double all = one.mass * gravity * one.lever * (1 - portable::cos(one.angle));
                            // trace.start, since the first moment is after the first step.
                            const double first = energy_of(trace.scene, one.slot, trace.start[one.slot], one.mass);
                            for (const Trace::Moment& moment : trace.moments) {

@@ -2,6 +2,7 @@
 // a heavy load.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -16,8 +17,8 @@ constexpr float width = 0.6f;
 
 // Adds two cards that lean against each other above (x, y). Returns the height of their upper edges.
 float add_tent(Scene& scene, float x, float y, Random& random) {
-    const float half_span = 0.5f * (thickness * std::cos(lean) + length * std::sin(lean));
-    const float half_rise = 0.5f * (thickness * std::sin(lean) + length * std::cos(lean));
+    const float half_span = 0.5f * (thickness * portable::cos(lean) + length * portable::sin(lean));
+    const float half_rise = 0.5f * (thickness * portable::sin(lean) + length * portable::cos(lean));
     for (const float side : {-1.0f, 1.0f}) {
         const vec3 place(x + side * half_span, y + half_rise, random.between(-0.002f, 0.002f));
         scene.bodies.push_back(box_at(place, {thickness / 2, length / 2, width / 2}, turned({0, 0, 1}, side * lean)));
@@ -31,7 +32,7 @@ DemoScene cards(const DemoOptions& options) {
     Scene scene;
     scene.bodies.push_back(ground());
     Random random(options.seed);
-    const float spacing = 2 * (thickness * std::cos(lean) + length * std::sin(lean));
+    const float spacing = 2 * (thickness * portable::cos(lean) + length * portable::sin(lean));
     float y = 0;
     for (int tents = 3; tents > 0; --tents) {
         float top = y;

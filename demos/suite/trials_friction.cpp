@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/incline.h"
 #include "demos/scenes/scene_builder.h"
@@ -25,7 +26,7 @@ Claim straight_down(Indices bodies, vec3 down, double limit) {
                            const glm::dvec3 way =
                                glm::dvec3(trace.end.at(body).position) - glm::dvec3(trace.start.at(body).position);
                            const double along = glm::dot(way, glm::dvec3(down)), aside = std::abs(way.z);
-                           const double angle = std::atan2(aside, along) * 180 / pi;
+                           const double angle = portable::atan2(aside, along) * 180 / pi;
                            if (!(angle <= most)) most = angle;
                        }
                        return most;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 
@@ -49,7 +50,8 @@ Claim keep_energy(const std::string& what, std::vector<Group> groups, double lea
 }
 
 vec3 yawed(vec3 place, float yaw) {
-    return {place.x * std::cos(yaw) + place.z * std::sin(yaw), place.y, place.z * std::cos(yaw) - place.x * std::sin(yaw)};
+    return {place.x * portable::cos(yaw) + place.z * portable::sin(yaw), place.y,
+            place.z * portable::cos(yaw) - place.x * portable::sin(yaw)};
 }
 std::size_t add_ball(Scene& scene, float radius, vec3 position, vec3 velocity) {
     const std::size_t i = add_body(scene, Sphere{radius}, position);
@@ -66,7 +68,7 @@ Group add_rods(Scene& scene, vec3 place, float yaw, float angle, float length) {
     for (int i = 0; i < 5; ++i) {
         const float swing = i == 0 ? angle : 0;
         const vec3 peg(2 * radius * static_cast<float>(i), 0, 0);
-        const vec3 hangs = peg - length * vec3(std::sin(swing), std::cos(swing), 0);
+        const vec3 hangs = peg - length * vec3(portable::sin(swing), portable::cos(swing), 0);
         const std::size_t ball = add_ball(scene, radius, place + yawed(hangs, yaw), vec3(0));
         Joint rod;
         rod.kind = Distance{length, length, {}};
@@ -90,7 +92,7 @@ Group add_row(Scene& scene, vec3 place, float yaw, float speed) {
 // Two balls that are welded together, one higher by `slant` (rad), falling from 1 m.
 Group add_welded(Scene& scene, vec3 place, float yaw, float slant) {
     constexpr float radius = 0.2f;
-    const vec3 axis = yawed({std::cos(slant), std::sin(slant), 0}, yaw);
+    const vec3 axis = yawed({portable::cos(slant), portable::sin(slant), 0}, yaw);
     const vec3 low = place + vec3(0, 1 + radius, 0);
     Joint weld;
     weld.kind = Fixed{};
@@ -99,12 +101,12 @@ Group add_welded(Scene& scene, vec3 place, float yaw, float slant) {
     weld.anchor_a = 0.25f * axis;
     weld.anchor_b = -weld.anchor_a;
     scene.joints.push_back(weld);
-    return {{weld.a, weld.b}, radius + 0.25f * std::sin(slant)};
+    return {{weld.a, weld.b}, radius + 0.25f * portable::sin(slant)};
 }
 // A ball on a rod that swings against a wall.
 Group add_pendulum(Scene& scene, vec3 place, float yaw, float angle) {
     constexpr float radius = 0.1f;
-    const vec3 hangs = -vec3(std::sin(angle), std::cos(angle), 0);
+    const vec3 hangs = -vec3(portable::sin(angle), portable::cos(angle), 0);
     scene.bodies.push_back(fixed_box(place + yawed({radius + 0.1f, -1, 0}, yaw), {0.1f, 0.3f, 0.3f}, 0, turned({0, 1, 0}, yaw)));
     Joint rod;
     rod.kind = Ball{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -34,8 +35,9 @@ Compound stool() {
     Compound compound;
     compound.parts.push_back({.shape = Cylinder{0.25f, 0.03f}, .position = {0, 0.48f, 0}});
     for (const float at : {0.0f, 120.0f, 240.0f})
-        compound.parts.push_back({.shape = Cylinder{0.025f, 0.225f},
-                                  .position = {0.18f * std::cos(at * degrees), 0.225f, 0.18f * std::sin(at * degrees)}});
+        compound.parts.push_back(
+            {.shape = Cylinder{0.025f, 0.225f},
+             .position = {0.18f * portable::cos(at * degrees), 0.225f, 0.18f * portable::sin(at * degrees)}});
     return compound;
 }
 

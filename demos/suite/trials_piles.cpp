@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/random_bodies.h"
@@ -16,7 +17,7 @@ namespace {
 // A pit, and over it a lattice of cells in which bodies of 1 m do not touch at any orientation.
 struct Pit {
     explicit Pit(std::size_t count)
-        : side(std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))))),
+        : side(std::max(2, static_cast<int>(std::ceil(portable::cbrt(2.0 * static_cast<double>(count)))))),
           half(0.5f * cell * static_cast<float>(side) + 0.1f),
           wall(0.4f * cell * static_cast<float>(side)) {}
 

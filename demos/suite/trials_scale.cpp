@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
 #include "demos/scenes/scene_builder.h"
@@ -26,7 +27,7 @@ Claim none_fell(std::vector<Stacked> stacked) {
                        double fallen = 0;
                        for (const auto& [body, half] : stacked) {
                            const vec3 way = trace.end[body].position - trace.start[body].position;
-                           fallen += !(std::hypot(way.x, way.z) < 0.5f * half);
+                           fallen += !(portable::hypot(way.x, way.z) < 0.5f * half);
                        }
                        return fallen;
                    });

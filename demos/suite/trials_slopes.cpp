@@ -1,6 +1,7 @@
 // Trials of friction and rolling: onset of sliding, sliding acceleration, rolling, and rolling resistance.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/incline.h"
 #include "demos/scenes/scene_builder.h"
@@ -22,7 +23,7 @@ public:
         for (const float mu : {0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
             for (const vec3 half : {flat, cube}) {
                 if (mu >= 1 && half == cube) continue;
-                const Incline incline{part * std::atan(mu), half_length_};
+                const Incline incline{part * portable::atan(mu), half_length_};
                 const std::size_t body = add_lane(scene, incline, next_, box_at({}, half), half.y, mu);
                 next_ += 1.3f;
                 if (part < 1) {

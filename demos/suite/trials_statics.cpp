@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "demos/scenes/statics.h"
@@ -67,7 +68,7 @@ DemoScene capstan(const DemoOptions&) {
     for (const float friction : {0.1f, 0.2f}) {
         for (const double part : {0.8, 1.2}) {
             const std::size_t weight =
-                add_rope(scene, {friction, part * std::exp(std::numbers::pi * static_cast<double>(friction)), z});
+                add_rope(scene, {friction, part * portable::exp(std::numbers::pi * static_cast<double>(friction)), z});
             part < 1 ? holding.push_back(weight) : running.push_back(weight);
             z += 0.6f;
         }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/driving.h"
 #include "demos/scenes/scene_builder.h"
@@ -57,7 +58,7 @@ double greatest_lateral(const Trace& trace, std::size_t slot) {
     for (std::size_t i = 60; i + span < trace.moments.size(); ++i) {
         const BodyState &before = trace.moments[i].bodies[slot], &after = trace.moments[i + span].bodies[slot];
         const glm::dvec3 v(before.velocity), w(after.velocity);
-        const double turn = std::atan2(glm::length(glm::cross(v, w)), glm::dot(v, w));
+        const double turn = portable::atan2(glm::length(glm::cross(v, w)), glm::dot(v, w));
         const double seconds = trace.moments[i + span].time - trace.moments[i].time;
         greatest = std::max(greatest, turn / seconds * 0.5 * (glm::length(v) + glm::length(w)));
     }
@@ -113,8 +114,8 @@ void add_curves(Roadtest& test) {
     Scene& scene = test.scene;
     const std::size_t slow = add_car(scene, {.position = {15, 0, 0}, .speed = 5, .engine = {.drag = 0}});
     scene.vehicles[slow].controls.steer = 0.5f;
-    const double tightest = std::tan(static_cast<double>(scene.vehicles[slow].steering.angle)) / 2.6;
-    const double radius = std::hypot(1 / (0.5 * tightest), 1.3);  // circle of the car's centre
+    const double tightest = portable::tan(static_cast<double>(scene.vehicles[slow].steering.angle)) / 2.6;
+    const double radius = portable::hypot(1 / (0.5 * tightest), 1.3);  // circle of the car's centre
     const std::size_t sliding = add_car(
         scene, {.position = {60, 0, 0}, .speed = 15, .engine = {.torque = 600}, .steering = {.angle = 0.2f, .lateral = 1000}});
     scene.vehicles[sliding].controls = {.throttle = 1, .steer = 1};

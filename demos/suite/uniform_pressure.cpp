@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/incline.h"
 
 namespace scree::demos {
@@ -40,9 +41,9 @@ Stop stop_of(const Face& face, double friction, double speed, double spin) {
     for (double turn = 0; speed > 1e-3 || spin > 2e-3; stop.time += step) {
         double force = 0, moment = 0;
         for (const glm::dvec2 point : face.points) {
-            const double x = std::cos(turn) * point.x - std::sin(turn) * point.y;
-            const double z = std::sin(turn) * point.x + std::cos(turn) * point.y;
-            const double along = speed - spin * z, aside = spin * x, slip = std::hypot(along, aside) + 1e-6;
+            const double x = portable::cos(turn) * point.x - portable::sin(turn) * point.y;
+            const double z = portable::sin(turn) * point.x + portable::cos(turn) * point.y;
+            const double along = speed - spin * z, aside = spin * x, slip = portable::hypot(along, aside) + 1e-6;
             force += along / slip;
             moment += (x * aside - z * along) / slip;
         }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "compute/scene/portable_math.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
@@ -52,11 +53,11 @@ std::vector<Experiment> all_experiments() {
 }
 
 vec3 uphill_normal(double slope) {
-    return {static_cast<float>(-std::sin(slope)), static_cast<float>(std::cos(slope)), 0};
+    return {static_cast<float>(-portable::sin(slope)), static_cast<float>(portable::cos(slope)), 0};
 }
 
 vec3 downhill(double slope) {
-    return {static_cast<float>(-std::cos(slope)), static_cast<float>(-std::sin(slope)), 0};
+    return {static_cast<float>(-portable::cos(slope)), static_cast<float>(-portable::sin(slope)), 0};
 }
 
 Body inclined_plane(double slope, float friction) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "compute/scene/portable_math.h"
+
 #include "demos/validate/experiment.h"
 
 namespace scree::demos {
@@ -34,7 +36,7 @@ Collision collide(const Lab& lab, double speed, double offset) {
     const double before = world.statistics().kinetic_energy;
     world.step(lab.steps(2 * static_cast<double>(away) / speed + 0.2));
     const vec3 v = world.body(0).velocity;
-    return {world.statistics().kinetic_energy / before, std::atan2(-static_cast<double>(v.y), static_cast<double>(v.x))};
+    return {world.statistics().kinetic_energy / before, portable::atan2(-static_cast<double>(v.y), static_cast<double>(v.x))};
 }
 
 vec3 any_direction(std::mt19937& random) {
@@ -154,7 +156,7 @@ double rise(const Lab& lab, Body body, double restitution, double half_height) {
 constexpr double slant_friction = 0.3, slant_restitution = 0.8;
 double slant_theory(double degrees) {
     const double slant = degrees * pi / 180;
-    return 2.5 * std::min(slant_friction * (1 + slant_restitution) * std::sin(slant), 2.0 / 7 * std::cos(slant));
+    return 2.5 * std::min(slant_friction * (1 + slant_restitution) * portable::sin(slant), 2.0 / 7 * portable::cos(slant));
 }
 double slant_spin(const Lab& lab, double degrees) {
     constexpr float speed = 10, radius = 0.25f;
@@ -162,7 +164,7 @@ double slant_spin(const Lab& lab, double degrees) {
     Scene scene;
     scene.gravity = vec3(0);
     scene.bodies = {{.name = "ground", .motion = Motion::fixed, .shape = Plane{}},
-                    ball_at({0, radius + 0.1f, 0}, speed * vec3(std::cos(slant), -std::sin(slant), 0))};
+                    ball_at({0, radius + 0.1f, 0}, speed * vec3(portable::cos(slant), -portable::sin(slant), 0))};
     scene.bodies[1].shape = Sphere{radius};
     for (Body& body : scene.bodies) {
         body.friction = static_cast<float>(slant_friction);
@@ -177,7 +179,7 @@ double slant_spin(const Lab& lab, double degrees) {
 // came; in empty space. A rigid body of two mass points m with own inertia 2/5 m r^2 each.
 constexpr double joined_restitution = 0.7;
 double joined_theory(double degrees) {
-    const double arm = 0.5 * std::sin(degrees * pi / 180);  // r = 0.5 m
+    const double arm = 0.5 * portable::sin(degrees * pi / 180);  // r = 0.5 m
     const double inverse_mass = 0.5, inertia = 2 * (0.4 * 0.25 + 0.25);
     return -1 + (1 + joined_restitution) / (1 + arm * arm / (inertia * inverse_mass));
 }
@@ -186,7 +188,7 @@ double joined_leaves(const Lab& lab, double degrees) {
     Scene scene;
     scene.gravity = vec3(0);
     const auto slant = static_cast<float>(degrees * pi / 180);
-    const vec3 axis(std::sin(slant), std::cos(slant), 0);
+    const vec3 axis(portable::sin(slant), portable::cos(slant), 0);
     scene.bodies = {ball_at({0, 0.9f, 0}, {0, -speed, 0}), ball_at(vec3(0, 0.9f, 0) + axis, {0, -speed, 0})};
     for (Body& body : scene.bodies) body.restitution = static_cast<float>(joined_restitution);
     Body block;
@@ -251,7 +253,7 @@ std::vector<Experiment> impact_experiments() {
                    0.01,
                    0.5,
                    {0, 0.2, 0.4, 0.6, 0.8},
-                   [](double b) { return std::asin(b) / degree; },
+                   [](double b) { return portable::asin(b) / degree; },
                    [](const Lab& lab, double b) { return collide(lab, 5, b).angle / degree; }});
     all.push_back({"elastic",
                    "balls that collide off centre keep their energy",

@@ -1,6 +1,8 @@
 // Rolling: round bodies against the equations of rolling without slip.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
+
 #include "demos/validate/experiment.h"
 
 namespace scree::demos {
@@ -50,7 +52,7 @@ std::vector<Experiment> rolling_experiments() {
                        0.005,
                        0.01,
                        {2, 5, 10, 20, 30},
-                       [part](double s) { return part * earth_gravity * std::sin(s * degree); },
+                       [part](double s) { return part * earth_gravity * portable::sin(s * degree); },
                        [shape](const Lab& lab, double s) { return 0.5 * roll_down(lab, s * degree, round_body(shape, 1), 2); }});
     };
     rolls("roll-ball", "a ball rolls down an incline", "a = 5/7 g sin s", Sphere{static_cast<float>(ball_radius)}, 5.0 / 7);

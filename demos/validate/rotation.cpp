@@ -1,6 +1,7 @@
 // Oscillation and rotation: pendulum, spring, gyroscope, free top.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/validate/experiment.h"
 #include "shaders/physics/base/arithmetic.h"
 
@@ -42,15 +43,16 @@ double arithmetic_geometric_mean(double a, double b) {
 constexpr double half_length = 0.5, half_width = 0.05;
 double pendulum_period(double amplitude) {
     const double inertia = (half_length * half_length + half_width * half_width) / 3 + half_length * half_length;
-    return 2 * pi * std::sqrt(inertia / (earth_gravity * half_length)) / arithmetic_geometric_mean(1, std::cos(amplitude / 2));
+    return 2 * pi * std::sqrt(inertia / (earth_gravity * half_length)) /
+           arithmetic_geometric_mean(1, portable::cos(amplitude / 2));
 }
 double measured_pendulum(const Lab& lab, double amplitude) {
     Scene scene;
     Body rod;
     rod.shape = Box{{0.05f, 0.5f, 0.05f}};
     rod.orientation = turned({0, 0, 1}, static_cast<float>(amplitude));
-    rod.position = {static_cast<float>(half_length * std::sin(amplitude)), static_cast<float>(-half_length * std::cos(amplitude)),
-                    0};
+    rod.position = {static_cast<float>(half_length * portable::sin(amplitude)),
+                    static_cast<float>(-half_length * portable::cos(amplitude)), 0};
     scene.bodies.push_back(rod);
     scene.joints.push_back(joint_at(scene, Hinge{}, the_world, 0, vec3(0), {0, 0, 1}));
     World world = lab.world(scene);
@@ -95,13 +97,13 @@ double measured_precession(const Lab& lab, double spin) {
     const double seconds = 0.8 * pi / turn;  // less than half a turn
     world.step(lab.steps(seconds));
     const vec3 end = world.body(0).position;
-    return std::atan2(-static_cast<double>(end.z), static_cast<double>(end.x)) / world.time();
+    return portable::atan2(-static_cast<double>(end.z), static_cast<double>(end.x)) / world.time();
 }
 
 // A symmetric top in empty space: its axis precesses about the angular momentum at L / I1.
 struct Top {
     double i1, i3, about_axis, across;  // kg m^2 of unit mass, rad/s
-    double rate() const { return std::hypot(i3 * about_axis, i1 * across) / i1; }
+    double rate() const { return portable::hypot(i3 * about_axis, i1 * across) / i1; }
 };
 Top top_of(double across) {
     const double r = 0.5, h = 0.1;
@@ -126,7 +128,7 @@ double measured_top(const Lab& lab, double across) {
     const double seconds = 0.8 * pi / top.rate();
     world.step(lab.steps(seconds));
     const glm::dvec3 end = across_of(world);
-    const double angle = std::atan2(glm::dot(momentum, glm::cross(start, end)), glm::dot(start, end));
+    const double angle = portable::atan2(glm::dot(momentum, glm::cross(start, end)), glm::dot(start, end));
     return angle / world.time();
 }
 
@@ -140,7 +142,7 @@ double measured_tumbling(const Lab& lab, double spin) {
             scene.gravity = vec3(0);
             Body body;
             body.shape = shape;
-            body.angular_velocity = vec3(spin * glm::dvec3(level * std::cos(turn), rise, level * std::sin(turn)));
+            body.angular_velocity = vec3(spin * glm::dvec3(level * portable::cos(turn), rise, level * portable::sin(turn)));
             scene.bodies.push_back(body);
             World world = lab.world(scene);
             const double before = world.statistics().kinetic_energy;

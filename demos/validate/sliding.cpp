@@ -1,6 +1,7 @@
 // Dry friction: sliding bodies against Coulomb's law.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/suite/uniform_pressure.h"
 #include "demos/validate/experiment.h"
 
@@ -55,7 +56,7 @@ std::vector<Experiment> sliding_experiments() {
                    0.005,
                    0.01,
                    {20, 25, 30, 40, 50, 60},
-                   [](double s) { return earth_gravity * (std::sin(s * degree) - 0.3 * std::cos(s * degree)); },
+                   [](double s) { return earth_gravity * (portable::sin(s * degree) - 0.3 * portable::cos(s * degree)); },
                    [plank](const Lab& lab, double s) { return 2 * slide_down(lab, s * degree, 0.3, plank, 0, 1).distance; }});
     all.push_back(
         {"slide-yaw",
@@ -67,7 +68,7 @@ std::vector<Experiment> sliding_experiments() {
          0.005,
          0,
          {0, 15, 30, 45, 60, 75, 90},
-         [](double) { return 2 * earth_gravity * (0.5 - 0.3 * std::cos(30 * degree)); },
+         [](double) { return 2 * earth_gravity * (0.5 - 0.3 * portable::cos(30 * degree)); },
          [plank](const Lab& lab, double yaw) { return slide_down(lab, 30 * degree, 0.3, plank, yaw * degree, 2).distance; }});
     all.push_back({"slide-course",
                    "a plank turned on the incline slides straight down",
@@ -81,7 +82,7 @@ std::vector<Experiment> sliding_experiments() {
                    [](double) { return 0.0; },
                    [plank](const Lab& lab, double yaw) {
                        const Slide slide = slide_down(lab, 30 * degree, 0.3, plank, yaw * degree, 2);
-                       return std::abs(std::atan2(slide.aside, slide.distance)) / degree;
+                       return std::abs(portable::atan2(slide.aside, slide.distance)) / degree;
                    }});
     all.push_back({"stop",
                    "a box slides to rest on a plane",
@@ -100,12 +101,12 @@ std::vector<Experiment> sliding_experiments() {
                        box.shape = Box{{0.4f, 0.1f, 0.3f}};
                        box.position = {0, 0.1f, 0};
                        box.friction = 0.4f;
-                       box.velocity = {static_cast<float>(v * std::cos(0.5)), 0, static_cast<float>(v * std::sin(0.5))};
+                       box.velocity = {static_cast<float>(v * portable::cos(0.5)), 0, static_cast<float>(v * portable::sin(0.5))};
                        scene.bodies.push_back(box);
                        World world = lab.world(scene);
                        world.step(lab.steps(v / (0.4 * earth_gravity) + 0.5));
                        const vec3 end = world.body(1).position;
-                       return std::hypot(static_cast<double>(end.x), static_cast<double>(end.z));
+                       return portable::hypot(static_cast<double>(end.x), static_cast<double>(end.z));
                    }});
     all.push_back({"disc",
                    "a disc slides and spins to rest",

@@ -1,6 +1,7 @@
 // Statics: angles at which bodies slip and tip, and the compliance of columns.
 #include <cmath>
 
+#include "compute/scene/portable_math.h"
 #include "demos/scenes/statics.h"
 #include "demos/validate/experiment.h"
 
@@ -32,7 +33,8 @@ double sag(const Lab& lab, int boxes, double pull = earth_gravity, float size = 
     World world = lab.world(scene);
     world.step(lab.steps(10));
     const double substeps = static_cast<double>(lab.settings().rate) * lab.settings().substeps;
-    return static_cast<double>(scene.bodies.back().position.y - world.bodies().back().position.y) * std::pow(substeps / 480, 2);
+    return static_cast<double>(scene.bodies.back().position.y - world.bodies().back().position.y) *
+           portable::pow(substeps / 480, 2);
 }
 constexpr double compliance = 7.23e-5 / earth_gravity;  // s^2
 
@@ -69,7 +71,7 @@ std::vector<Experiment> static_experiments() {
          0,
          0.2,
          {0.1, 0.2, 0.4, 0.6, 0.9},
-         [](double mu) { return std::atan(mu) / degree; },
+         [](double mu) { return portable::atan(mu) / degree; },
          [](const Lab& lab, double mu) {
              return critical(0, 60, 0.05, [&](double s) { return leaves(lab, s * degree, mu, {0.5f, 0.2f, 0.5f}, 0.4, 4); });
          }},
@@ -82,7 +84,7 @@ std::vector<Experiment> static_experiments() {
          0,
          0.3,
          {0.2, 0.4, 0.6, 0.8, 1},
-         [](double w) { return std::atan(w) / degree; },
+         [](double w) { return portable::atan(w) / degree; },
          [](const Lab& lab, double w) {
              const vec3 half(0.5f * static_cast<float>(w), 0.5f, 0.4f);
              return critical(0, 60, 0.05, [&](double s) { return leaves(lab, s * degree, 4, half, 0, 6); });
@@ -142,7 +144,7 @@ std::vector<Experiment> static_experiments() {
          0.15,
          0,
          {0.05, 0.1, 0.2},
-         [](double mu) { return std::exp(mu * pi); },
+         [](double mu) { return portable::exp(mu * pi); },
          [](const Lab& lab, double mu) { return critical(1, 3, 0.02, [&](double ratio) { return runs(lab, mu, ratio); }); }},
     };
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/gltf_joints.h"
 #include "compute/scene_file/import/gltf_materials.h"
 #include "compute/scene_file/import/gltf_shapes.h"
@@ -77,7 +78,7 @@ private:
 vec3 srgb_of(vec3 linear) {
     for (int k = 0; k < 3; ++k) {
         const float x = std::clamp(linear[k], 0.0f, 1.0f);
-        linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+        linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * portable::pow(x, 1.0f / 2.4f) - 0.055f;
     }
     return linear;
 }

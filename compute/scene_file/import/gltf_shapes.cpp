@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compute/scene/hull.h"
+#include "compute/scene/portable_math.h"
 
 namespace scree::imports {
 
@@ -115,9 +116,10 @@ public:
         }
         std::vector<dvec3> points;
         // Of polygon and circle.
-        const double equal_area = std::sqrt(whole_turn / hull_sides / std::sin(whole_turn / hull_sides));
+        const double equal_area = std::sqrt(whole_turn / hull_sides / portable::sin(whole_turn / hull_sides));
         for (int i = 0; i < hull_sides; ++i) {
-            const dvec3 out = equal_area * dvec3(std::cos(whole_turn * i / hull_sides), 0, std::sin(whole_turn * i / hull_sides));
+            const dvec3 out =
+                equal_area * dvec3(portable::cos(whole_turn * i / hull_sides), 0, portable::sin(whole_turn * i / hull_sides));
             points.push_back(bottom * out + dvec3(0, from, 0));
             points.push_back(top * out + dvec3(0, to, 0));
         }

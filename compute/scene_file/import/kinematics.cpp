@@ -1,4 +1,5 @@
 // Poses and velocities of a model's bodies from the coordinates of their joints.
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/model.h"
 
 namespace scree::imports {
@@ -19,7 +20,7 @@ ModelMotion moved(const ModelMotion& parent, const ModelBody& body, bool at_star
             continue;
         }
         if (joint.kind == ModelJoint::Kind::hinge) {
-            at.placed.turn = glm::normalize(glm::angleAxis(joint.start, axis) * at.placed.turn);
+            at.placed.turn = glm::normalize(portable::turn_about(axis, joint.start) * at.placed.turn);
             at.spin += axis * joint.start_speed;
             at.sweep += glm::cross(anchor, axis * joint.start_speed);
         } else {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compute/scene/hull.h"
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/mjcf.h"
 
 namespace scree::imports {
@@ -34,7 +35,7 @@ dquat turn_between(const dvec3& from, const dvec3& to) {
     const double along = glm::dot(from, to);
     if (along < -1 + 1e-12) {
         const dvec3 side = std::abs(from.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-        return glm::angleAxis(3.141592653589793, glm::normalize(glm::cross(from, side)));
+        return portable::turn_about(glm::normalize(glm::cross(from, side)), 3.141592653589793);
     }
     const dvec3 c = glm::cross(from, to);
     return glm::normalize(dquat(1 + along, c.x, c.y, c.z));
@@ -49,14 +50,14 @@ dquat Mjcf::turn(Element& element) {
     }
     if (const auto q = element.numbers("quat", 4, 4); !q.empty()) return unit_turn(element, "quat", q);
     if (const auto a = element.numbers("axisangle", 4, 4); !a.empty())
-        return glm::angleAxis(angle(a[3]), unit_vector(element, "axisangle", {a[0], a[1], a[2]}));
+        return portable::turn_about(unit_vector(element, "axisangle", {a[0], a[1], a[2]}), angle(a[3]));
     if (const auto e = element.numbers("euler", 3, 3); !e.empty()) {
         dquat q(1, 0, 0, 0);
         for (std::size_t k = 0; k < 3; ++k) {
             const char axis = compiler_.euler[k];
             dvec3 about(0);
             about[(axis | 32) - 'x'] = 1;
-            const dquat one = glm::angleAxis(angle(e[k]), about);
+            const dquat one = portable::turn_about(about, angle(e[k]));
             q = axis >= 'x' ? q * one : one * q;  // lower case: turning with the body
         }
         return glm::normalize(q);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/model.h"
 
 namespace scree::imports {
@@ -75,8 +76,8 @@ Placed Urdf::origin(const host::XmlElement& tree) {
     Element element(*found, notes_);
     const auto at = xyz_of(element, "xyz", {0, 0, 0}), turns = xyz_of(element, "rpy", {0, 0, 0});
     element.finish();
-    const dquat turn = glm::angleAxis(turns[2], dvec3(0, 0, 1)) * glm::angleAxis(turns[1], dvec3(0, 1, 0)) *
-                       glm::angleAxis(turns[0], dvec3(1, 0, 0));
+    const dquat turn = portable::turn_about(dvec3(0, 0, 1), turns[2]) * portable::turn_about(dvec3(0, 1, 0), turns[1]) *
+                       portable::turn_about(dvec3(1, 0, 0), turns[0]);
     return {{at[0], at[1], at[2]}, glm::normalize(turn)};
 }
 
