@@ -1,7 +1,8 @@
-# Makes NAME.tar.gz: the program with the libraries it needs, for Linux machines on which nothing can be installed.
+# Makes NAME.tar.gz: the program, libscree with scree.h, and the libraries they need, for Linux machines on which nothing can be
+# installed.
 # cmake -DBUILD=FOLDER -DNAME=NAME [-DLOADER=libvulkan.so.1] -P bundle.cmake
 #
-# lib/scree/scree finds the libraries beside it by its run path. Those that GPU drivers load as well, and the Vulkan loader, lie in
+# lib/scree/scree and libscree find the libraries beside them by their run path. Those that GPU drivers load as well, and the Vulkan loader, lie in
 # a folder for machines that lack them (launcher.sh). The C library and drivers are the machine's.
 set(stage ${BUILD}/bundle/${NAME})
 set(home ${stage}/lib/scree)
@@ -12,7 +13,15 @@ file(MAKE_DIRECTORY ${home})
 file(RENAME ${stage}/bin/scree ${home}/scree)
 file(INSTALL ${CMAKE_CURRENT_LIST_DIR}/launcher.sh DESTINATION ${stage}/bin USE_SOURCE_PERMISSIONS RENAME scree)
 
-file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${home}/scree RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${stage}/library --strip
+                COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+file(GLOB_RECURSE libscree ${stage}/library/*/libscree.so.0)
+file(INSTALL ${libscree} DESTINATION ${home} FOLLOW_SYMLINK_CHAIN)
+file(REMOVE_RECURSE ${stage}/library)
+file(CREATE_LINK libscree.so.0 ${home}/libscree.so SYMBOLIC)
+file(INSTALL ${CMAKE_CURRENT_LIST_DIR}/../c/scree.h DESTINATION ${stage}/include/scree)
+
+file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${home}/scree LIBRARIES ${home}/libscree.so.0 RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
      PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|resolv)\\.so")
 if(missing)
     message(FATAL_ERROR "the bundle lacks ${missing}, which were not found on this machine")

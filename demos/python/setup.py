@@ -3,7 +3,7 @@
 pip wheel --no-build-isolation --no-deps -w dist demos/python     a wheel for any CPython from 3.9 on
 
 Needs the packages that .ci/setup lists, and no network. The wheel holds libscree and the libraries that it needs, but for the C and
-C++ libraries and the Vulkan loader, which are the machine's. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
+C++ libraries and the Vulkan loader, which are the machine's; its name says which glibc it needs, and pip refuses an older one. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
 -DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the library from, in place of a build of its own;
 CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
 """
@@ -57,6 +57,11 @@ def needed_by(library: Path) -> "list[Path]":
     return [Path(place) for name, place in found if not OF_THE_MACHINE.match(name)]
 
 
+def glibc_needed_by(libraries: "list[Path]") -> "tuple[int, int]":
+    told = subprocess.run(["objdump", "-T", *map(str, libraries)], check=True, capture_output=True, text=True).stdout
+    return max((int(first), int(second)) for first, second in re.findall(r"GLIBC_(\d+)\.(\d+)", told))
+
+
 class WithLibrary(build_py):
     """The package's files, and the library with what it needs."""
 
@@ -76,14 +81,18 @@ class WithLibrary(build_py):
 
 
 class ForAnyPython(bdist_wheel):
-    """Of one kind of machine, and of no version of Python."""
+    """Of one kind of machine, with the glibc that its libraries need or a later one (PEP 600), and of no version of Python."""
 
     def finalize_options(self) -> None:
         super().finalize_options()
         self.root_is_pure = False
 
     def get_tag(self) -> "tuple[str, str, str]":
-        return "py3", "none", super().get_tag()[2]
+        platform = super().get_tag()[2]
+        libraries = sorted((Path(self.get_finalized_command("build_py").build_lib) / "scree").glob("*.so*"))
+        if platform.startswith("linux_") and libraries:
+            platform = "manylinux_{}_{}_".format(*glibc_needed_by(libraries)) + platform[len("linux_"):]
+        return "py3", "none", platform
 
 
 class OfOneMachine(Distribution):
