@@ -271,7 +271,9 @@ void require_sense(const Shape& shape, const Fracture& f) {
                             "parts bodies of their own, held together by joints that break");
     if (f.cutting == Cutting::boxes && !std::holds_alternative<Box>(shape))
         throw FractureError("cutting", "only a box can be cut into boxes; others: \"voronoi\", \"splinters\"");
-    if (portable::pow(static_cast<double>(f.pieces), static_cast<double>(f.depth)) > most_in_all)
+    std::size_t in_all = 1;
+    for (std::size_t level = 0; level < f.depth && in_all <= most_in_all; ++level) in_all *= f.pieces;
+    if (in_all > most_in_all)
         throw FractureError("depth", "gives more than 10000 pieces of one body; ask for fewer pieces or less depth");
 }
 

@@ -322,6 +322,11 @@ TEST_CASE("what cannot break is refused by name") {
                    b.fracture->depth = 3;
                }),
                Catch::Contains("more than 10000 pieces"));
+    CHECK(refused([](Body& b) {
+              b.fracture->pieces = 10;  // just 10000
+              b.fracture->depth = 4;
+              b.fracture->cutting = Cutting::boxes;
+          }) == "taken");
     CHECK_THAT(refused([](Body& b) {
                    b.shape = Sphere{};
                    b.fracture->cutting = Cutting::boxes;
