@@ -8,7 +8,11 @@
 namespace scree::host {
 
 std::string processor() {
+#ifdef __EMSCRIPTEN__
+    std::string name = "WebAssembly";
+#else
     std::string name = "unknown processor";
+#endif
     std::ifstream list("/proc/cpuinfo");
     for (std::string line; std::getline(list, line);) {
         const std::size_t colon = line.find(": ");

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The bits of every demo and trial on the CPU path, beside those on record (demos/records/hashes.txt):
-tests/house/bits.py PROGRAM [--keep] [--row "SYSTEM | COMPILER | LANES"].
+tests/house/bits.py PROGRAM [--keep] [--row "SYSTEM | COMPILER"].
 
 Exit status 1 where a hash differs from the one on record. --keep puts PROGRAM's hashes on record: after a change that is meant to
 change bits. --row writes what was found into the table of demos/docs/evidence/platforms.md.
@@ -27,14 +27,14 @@ def scenes_of(program):
             yield words[0], ["--bodies", str(bodies)] if "--bodies" in words else []
 
 
-def hash_by(program, scene, options):
+def report_of(program, scene, options):
     done = subprocess.run([program, "run", scene, *options, "--backend", "cpu", "--threads", "2", "--steps", str(steps), "--quiet",
                            "--report", "-"], capture_output=True, text=True)
     try:
-        return json.loads(done.stdout)["state_hash"]
-    except (ValueError, KeyError):
+        return json.loads(done.stdout)
+    except ValueError:
         said = done.stderr.strip().splitlines()
-        return f"no hash (exit status {done.returncode}{': ' + said[-1] if said else ''})"
+        return {"state_hash": f"no hash (exit status {done.returncode}{': ' + said[-1] if said else ''})"}
 
 
 def on_record():
@@ -69,7 +69,8 @@ def main():
     parser.add_argument("--row")
     given = parser.parse_args()
     program = str(pathlib.Path(given.program).resolve())
-    found = {scene: hash_by(program, scene, options) for scene, options in scenes_of(program)}
+    reports = {scene: report_of(program, scene, options) for scene, options in scenes_of(program)}
+    found = {scene: report["state_hash"] for scene, report in reports.items()}
     if given.keep:
         if wrong := [f"{scene}: {value}" for scene, value in found.items() if not re.fullmatch("[0-9a-f]{16}", value)]:
             sys.exit("bits: nothing is kept: " + "; ".join(wrong))
@@ -82,7 +83,8 @@ def main():
         print("on record alone: " + ", ".join(gone))
     print(f"{len(found) - len(wrong)} of {len(found)} scenes have the bits on record")
     if given.row:
-        write_row(given.row, f"{len(found) - len(wrong)} of {len(found)}" + (f" (not {', '.join(wrong)})" if wrong else ""))
+        lanes = max(report.get("lanes", 0) for report in reports.values())
+        write_row(f"{given.row} | {lanes}", f"{len(found) - len(wrong)} of {len(found)}" + (f" (not {', '.join(wrong)})" if wrong else ""))
     sys.exit(1 if wrong or gone or not found else 0)
 
 
