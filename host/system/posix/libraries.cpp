@@ -1,0 +1,29 @@
+// Shared libraries of POSIX.
+#include "host/system/libraries.h"
+
+#include <dlfcn.h>
+
+namespace scree::host {
+
+// The last is that of the portable archive (demos/packaging/bundle.cmake).
+const char* const vulkan_library[] = {"libvulkan.so.1", "libvulkan.so", "$ORIGIN/fallback/libvulkan.so.1", nullptr};
+const char* const egl_library[] = {"libEGL.so.1", nullptr};
+const char* const gles_library[] = {"libGLESv2.so.2", nullptr};
+
+void* load_library(const char* const* names) {
+    for (; *names; ++names)
+        if (void* const found = ::dlopen(*names, RTLD_NOW | RTLD_LOCAL)) return found;
+    return nullptr;
+}
+
+void* function_of(void* library, const char* name) {
+    return ::dlsym(library, name);
+}
+
+void* load_module(const std::filesystem::path& file, std::string& reason) {
+    void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (!module) reason = ::dlerror();
+    return module;
+}
+
+}  // namespace scree::host
