@@ -1,14 +1,13 @@
 // Device runner: executes the plan on a Vulkan device.
 #include "compute/device/device_runner.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
 #include "compute/distributed/distributed_runner.h"
+#include "compute/parallel/threads.h"
 #include "compute/plan/stage_fusion.h"
 #include "compute/plan/stage_slices.h"
 #include "shaders/embedded.h"
@@ -164,11 +163,14 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
                 return pipeline_of(*other.first) == pipeline_of(stage);
             }))
             missing.emplace_back(&stage, std::nullopt);
-    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-        const Stage& stage = *missing[i].first;
-        const std::string shader = stage.name + stage.way;
-        missing[i].second.emplace(layout_, shader.c_str(), shaders::find(shader + variant), constants_of(stage));
-    });
+    const auto make = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Stage& stage = *missing[i].first;
+            const std::string shader = stage.name + stage.way;
+            missing[i].second.emplace(layout_, shader.c_str(), shaders::find(shader + variant), constants_of(stage));
+        }
+    };
+    Threads(0).for_ranges(missing.size(), make, 1);
     for (auto& [stage, pipeline] : missing) pipelines_.emplace(pipeline_of(*stage), std::move(*pipeline));
 }
 

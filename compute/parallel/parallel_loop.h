@@ -10,27 +10,9 @@
 #include <cstddef>
 #include <functional>
 
-#ifdef SCREE_THREAD_SANITIZER
-#include <sanitizer/tsan_interface.h>
-#endif
+#include "compute/parallel/happens_before.h"
 
 namespace scree {
-
-// An order that the sanitizer does not see by itself: what precedes release() happens before what follows acquire().
-class HappensBefore {
-public:
-#ifdef SCREE_THREAD_SANITIZER
-    void release() {
-        __tsan_release(this);
-    }
-    void acquire() {
-        __tsan_acquire(this);
-    }
-#else
-    void release() {}
-    void acquire() {}
-#endif
-};
 
 // Calls range(first, last) for a partition of [0, n) into ranges of `least` items or more.
 void parallel_loop(tbb::task_arena& arena, std::size_t n, std::size_t least,

@@ -1,54 +1,22 @@
-// Parallel loops on oneTBB.
+// Parallel loops of a team of threads.
 #include "compute/parallel/threads.h"
-
-#include <tbb/global_control.h>
-#include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "compute/parallel/parallel_loop.h"
+#include "compute/parallel/happens_before.h"
+#include "compute/parallel/team.h"
 #include "compute/timeline.h"
 
 namespace scree {
 
 namespace {
-
-// Arenas that no world uses at present, by their number of threads. oneTBB 2021.8 loses about 3 kB with each arena that is
-// destroyed while a worker is on its way into it: 100,000 worlds on a busy machine held 300 MB.
-class IdleArenas {
-public:
-    std::unique_ptr<tbb::task_arena> take(int threads) {
-        const std::lock_guard lock(mutex_);
-        auto& idle = idle_[threads];
-        if (idle.empty()) return std::make_unique<tbb::task_arena>(threads);
-        std::unique_ptr<tbb::task_arena> arena = std::move(idle.back());
-        idle.pop_back();
-        return arena;
-    }
-    void give_back(int threads, std::unique_ptr<tbb::task_arena> arena) {
-        const std::lock_guard lock(mutex_);
-        idle_[threads].push_back(std::move(arena));
-    }
-    // Never destroyed: oneTBB's own state may end before it.
-    static IdleArenas& all() {
-        static IdleArenas& arenas = *new IdleArenas;
-        return arenas;
-    }
-
-private:
-    std::mutex mutex_;
-    std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> idle_;
-};
 
 int lanes_of_processor() {
 #if defined(__x86_64__)
@@ -76,27 +44,10 @@ int widest_lanes() {
     return lanes;
 }
 
-struct Threads::Arena {
-    explicit Arena(int threads)
-        : limit(tbb::global_control::max_allowed_parallelism,
-                std::max(static_cast<std::size_t>(threads),
-                         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
-          count(threads),
-          owned(IdleArenas::all().take(threads)),
-          arena(*owned) {}
-    ~Arena() { IdleArenas::all().give_back(count, std::move(owned)); }
-    Arena(const Arena&) = delete;
-    Arena& operator=(const Arena&) = delete;
-    tbb::global_control limit;  // else TBB would silently limit the threads to the number of cores
-    int count;
-    std::unique_ptr<tbb::task_arena> owned;
-    tbb::task_arena& arena;
-};
-
 Threads::Threads(int count, int lanes)
-    : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+    : count_(Team::most(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))),
       lanes_(std::min(lanes, widest_lanes())) {
-    if (count_ > 1) arena_ = std::make_unique<Arena>(count_);
+    if (count_ > 1) team_ = std::make_unique<Team>(count_);
 }
 Threads::~Threads() = default;
 
@@ -106,11 +57,11 @@ void Threads::share_out_watched(std::size_t n, std::size_t least, const RangeBod
         Timeline::Time begin{}, end{};
         std::chrono::duration<double> busy{0};
         std::size_t items = 0;
-        HappensBefore next;  // a slot of the arena is one thread's, then another's
+        HappensBefore next;  // a slot of the team is one thread's, then another's
     };
-    std::vector<Work> works(static_cast<std::size_t>(arena_->arena.max_concurrency()));
-    parallel_loop(arena_->arena, n, least, [&](std::size_t first, std::size_t last) {
-        Work& work = works[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+    std::vector<Work> works(team_->slots());
+    team_->loop(n, least, [&](std::size_t first, std::size_t last) {
+        Work& work = works[Team::slot()];
         work.next.acquire();
         const Timeline::Time begin = Timeline::Clock::now();
         range(first, last);
@@ -128,16 +79,12 @@ void Threads::share_out_watched(std::size_t n, std::size_t least, const RangeBod
 
 void Threads::share_out(std::size_t n, std::size_t least, const RangeBody& range) const {
     if (timeline_) return share_out_watched(n, least, range);
-    parallel_loop(arena_->arena, n, least, range);
+    team_->loop(n, least, range);
 }
 
 void Threads::sort(std::vector<std::pair<std::uint64_t, std::uint32_t>>& keys) const {
-#ifdef SCREE_THREAD_SANITIZER
-    std::sort(keys.begin(), keys.end());  // it would see races among the tasks of oneTBB's sort, in which scree has no part
-#else
     if (count_ == 1) return std::sort(keys.begin(), keys.end());
-    arena_->arena.execute([&] { tbb::parallel_sort(keys.begin(), keys.end()); });
-#endif
+    team_->sort(keys);
 }
 
 }  // namespace scree

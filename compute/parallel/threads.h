@@ -11,6 +11,7 @@
 
 namespace scree {
 
+class Team;
 class Timeline;
 
 // SIMD lanes of the widest loops here: 16 with AVX-512, 8 with AVX2, else 4; fewer where the environment variable SCREE_LANES
@@ -20,8 +21,9 @@ int widest_lanes();
 class Threads {
 public:
     static constexpr int most_lanes = 16;
-    static constexpr std::size_t grain = 64;              // least items per task
-    explicit Threads(int count, int lanes = most_lanes);  // 0: one per core; at most widest_lanes()
+    static constexpr std::size_t grain = 64;  // least items per task
+    explicit Threads(int count,
+                     int lanes = most_lanes);  // 0: one per core, always one where there are no threads; at most widest_lanes()
     ~Threads();
     int count() const { return count_; }
     // Greatest number of SIMD lanes that a loop may use.
@@ -54,8 +56,7 @@ private:
     void share_out(std::size_t n, std::size_t least, const RangeBody& range) const;
     void share_out_watched(std::size_t n, std::size_t least, const RangeBody& range) const;
 
-    struct Arena;
-    std::unique_ptr<Arena> arena_;
+    std::unique_ptr<Team> team_;
     int count_ = 1;
     int lanes_ = most_lanes;
     Timeline* timeline_ = nullptr;

@@ -1,7 +1,6 @@
 // Rays into a heap: scree against brute force on every ray, against a device, and against Bullet's rayTest in speed.
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "compute/device/device_runner.h"
+#include "compute/parallel/threads.h"
 #include "compute/queries.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/world.h"
@@ -251,9 +251,8 @@ int main(int argc, char** argv) {
     }
     const Brute brute(world.scene(), states);
     std::atomic<std::size_t> missed = 0;
-    const double slow = seconds_of([&] {
-        tbb::parallel_for(std::size_t{0}, checked, [&](std::size_t i) { missed += !equal(hits[i], brute.nearest(rays[i])); });
-    });
+    const double slow = seconds_of(
+        [&] { Threads(0).for_each(checked, [&](std::size_t i) { missed += !equal(hits[i], brute.nearest(rays[i])); }); });
     fmt::print("brute force differs on {} of {} rays ({:.0f} s)\n", missed.load(), checked, slow);
     return wrong + missed == 0 ? 0 : 1;
 }
