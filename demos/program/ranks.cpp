@@ -17,6 +17,7 @@ namespace {
 constexpr const char* module_name = "libscree_mpi.so";
 
 void* load_module() {
+    if (!host::has_modules) throw UsageError("--distributed: one world on several processes is for Linux; leave the option out");
     std::error_code failed;
     const std::filesystem::path folder = host::own_program().parent_path();
     for (const char* at : {".", "../lib/scree", "../lib/x86_64-linux-gnu/scree", "../lib/aarch64-linux-gnu/scree"}) {

@@ -12,6 +12,7 @@
 
 #include "host/files/partial_file.h"
 #include "host/system/files.h"
+#include "host/system/libraries.h"
 #include "host/system/processes.h"
 
 namespace scree::host {
@@ -19,7 +20,7 @@ namespace {
 
 std::filesystem::path find_ffmpeg() {
     if (const auto found = find_program("ffmpeg")) return *found;
-    throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video and --preview");
+    throw ImageError(std::string("ffmpeg not found: ") + ffmpeg_cure + ", or leave out --video and --preview");
 }
 
 // Resolves symbolic links, so that the target is replaced and not the link. Throws ImageError unless the target is a

@@ -21,7 +21,8 @@ std::filesystem::path cache_home();
 std::filesystem::path own_program();
 // The file that this code is in: a program, or a module of another.
 std::filesystem::path own_file();
-std::vector<std::string> own_words();  // of the command line, in UTF-8
+void set_environment(const char* name, const std::string& value);  // of this process
+std::vector<std::string> own_words();                              // of the command line, in UTF-8
 
 char** utf8_arguments(char** arguments);  // those of main, in UTF-8
 

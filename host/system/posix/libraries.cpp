@@ -10,6 +10,12 @@ const char* const vulkan_library[] = {"libvulkan.so.1", "libvulkan.so", "$ORIGIN
 const char* const egl_library[] = {"libEGL.so.1", nullptr};
 const char* const gles_library[] = {"libGLESv2.so.2", nullptr};
 
+const char* const vulkan_cure = "apt-get install libvulkan1 mesa-vulkan-drivers (with lavapipe, which runs on the CPU)";
+const char* const egl_cure = "apt-get install libegl1 libgles2 libgl1-mesa-dri";
+const char* const ffmpeg_cure = "apt-get install ffmpeg";
+
+const bool has_modules = true;
+
 void* load_library(const char* const* names) {
     for (; *names; ++names)
         if (void* const found = ::dlopen(*names, RTLD_NOW | RTLD_LOCAL)) return found;

@@ -81,6 +81,10 @@ std::filesystem::path own_file() {
     return file.extension() == ".so" && std::filesystem::exists(file, none) ? file : "/proc/self/exe";
 }
 
+void set_environment(const char* name, const std::string& value) {
+    ::setenv(name, value.c_str(), 1);
+}
+
 std::vector<std::string> own_words() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     std::vector<std::string> words;

@@ -1,8 +1,6 @@
 // Shared libraries of Windows.
 #include "host/system/libraries.h"
 
-#include <system_error>
-
 #include "host/system/windows/windows.h"
 
 namespace scree::host {
@@ -10,6 +8,12 @@ namespace scree::host {
 const char* const vulkan_library[] = {"vulkan-1.dll", nullptr};
 const char* const egl_library[] = {"libEGL.dll", nullptr};
 const char* const gles_library[] = {"libGLESv2.dll", nullptr};
+
+const char* const vulkan_cure = "install the driver of its graphics card";
+const char* const egl_cure = "pictures are drawn with Vulkan on Windows; install the driver of its graphics card";
+const char* const ffmpeg_cure = "winget install ffmpeg";
+
+const bool has_modules = false;
 
 void* load_library(const char* const* names) {
     for (; *names; ++names)
@@ -22,9 +26,8 @@ void* function_of(void* library, const char* name) {
 }
 
 void* load_module(const std::filesystem::path& file, std::string& reason) {
-    const HMODULE module = LoadLibraryW(file.c_str());
-    if (!module) reason = file.string() + ": " + std::system_category().message(static_cast<int>(GetLastError()));
-    return module;
+    reason = file.string() + ": modules are loaded on Linux alone";
+    return nullptr;
 }
 
 }  // namespace scree::host

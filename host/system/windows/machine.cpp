@@ -77,6 +77,10 @@ std::filesystem::path own_file() {
     return file_of(module);
 }
 
+void set_environment(const char* name, const std::string& value) {
+    ::_wputenv_s(wide(name).c_str(), wide(value).c_str());
+}
+
 std::vector<std::string> own_words() {
     int count = 0;
     wchar_t** const given = CommandLineToArgvW(GetCommandLineW(), &count);

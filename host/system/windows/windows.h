@@ -1,8 +1,11 @@
 // Windows' own functions, without the macros that its headers leave behind.
 #pragma once
 
+#undef WIN32_LEAN_AND_MEAN
 #define WIN32_LEAN_AND_MEAN
+#undef NOMINMAX
 #define NOMINMAX
+#undef _WIN32_WINNT
 #define _WIN32_WINNT 0x0A00
 #include <windows.h>
 #undef near
