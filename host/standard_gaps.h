@@ -1,5 +1,5 @@
-// What C++20 has and libc++ before version 20 lacks, as far as scree uses it. The build includes this file before all others where
-// the standard library is such a one (CMakeLists.txt); no other file knows of it.
+// What C++20 has and libc++ before version 20 lacks, as far as scree uses it. The build includes this file before all others
+// where the standard library is such a one (CMakeLists.txt); no other file knows of it.
 #pragma once
 
 #include <version>
@@ -39,16 +39,24 @@ public:
     explicit atomic_ref(T& value) : value_(&value) {}
     T load(std::memory_order = std::memory_order_seq_cst) const { return __atomic_load_n(value_, __ATOMIC_SEQ_CST); }
     void store(T to, std::memory_order = std::memory_order_seq_cst) const { __atomic_store_n(value_, to, __ATOMIC_SEQ_CST); }
-    T exchange(T to, std::memory_order = std::memory_order_seq_cst) const { return __atomic_exchange_n(value_, to, __ATOMIC_SEQ_CST); }
+    T exchange(T to, std::memory_order = std::memory_order_seq_cst) const {
+        return __atomic_exchange_n(value_, to, __ATOMIC_SEQ_CST);
+    }
     bool compare_exchange_weak(T& expected, T to, std::memory_order = std::memory_order_seq_cst) const {
         return compare_exchange_strong(expected, to);
     }
     bool compare_exchange_strong(T& expected, T to, std::memory_order = std::memory_order_seq_cst) const {
         return __atomic_compare_exchange_n(value_, &expected, to, false, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST);
     }
-    T fetch_add(T by, std::memory_order = std::memory_order_seq_cst) const { return __atomic_fetch_add(value_, by, __ATOMIC_SEQ_CST); }
-    T fetch_or(T by, std::memory_order = std::memory_order_seq_cst) const { return __atomic_fetch_or(value_, by, __ATOMIC_SEQ_CST); }
-    T fetch_and(T by, std::memory_order = std::memory_order_seq_cst) const { return __atomic_fetch_and(value_, by, __ATOMIC_SEQ_CST); }
+    T fetch_add(T by, std::memory_order = std::memory_order_seq_cst) const {
+        return __atomic_fetch_add(value_, by, __ATOMIC_SEQ_CST);
+    }
+    T fetch_or(T by, std::memory_order = std::memory_order_seq_cst) const {
+        return __atomic_fetch_or(value_, by, __ATOMIC_SEQ_CST);
+    }
+    T fetch_and(T by, std::memory_order = std::memory_order_seq_cst) const {
+        return __atomic_fetch_and(value_, by, __ATOMIC_SEQ_CST);
+    }
     operator T() const { return load(); }
 
 private:
@@ -59,9 +67,9 @@ private:
 #if _LIBCPP_VERSION < 15000
 namespace ranges {
 
-template <class Range, class Value>
-auto find(Range&& range, const Value& value) {
-    return std::find(std::begin(range), std::end(range), value);
+template <class Range, class Value, class Projection = std::identity>
+auto find(Range&& range, const Value& value, Projection of = {}) {
+    return std::find_if(std::begin(range), std::end(range), [&](auto&& item) -> bool { return std::invoke(of, item) == value; });
 }
 template <class Range, class Test, class Projection = std::identity>
 auto find_if(Range&& range, Test test, Projection of = {}) {

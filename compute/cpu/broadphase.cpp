@@ -179,7 +179,8 @@ void sort_cells(State& state, const Threads& threads, std::uint32_t) {
             const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
             const auto last = state.cell_entries.begin() + state.cell_ends[b];
             std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
-            for (physics::CellEntry& entry : std::span(first, last)) {
+            for (auto at = first; at != last; ++at) {
+                physics::CellEntry& entry = *at;
                 entry = entry_of(state, entry.body);
                 inactive += (entry.level & physics::INACTIVE) != 0;
                 state.scratch.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())] =

@@ -29,7 +29,7 @@ void write_checkpoint(const std::filesystem::path& path, const World& world, std
         world.save_in_pieces([&, start = front.bytes().size()](std::uint64_t at, std::span<const std::byte> bytes) {
             writes = true;
             std::vector<std::byte>& all = front.bytes();
-            all.resize(std::max(all.size(), start + at + bytes.size()));
+            all.resize(std::max(all.size(), static_cast<std::size_t>(start + at + bytes.size())));
             std::copy(bytes.begin(), bytes.end(), all.begin() + static_cast<std::ptrdiff_t>(start + at));
         });
         if (writes) host::write_atomically(path, std::span<const std::byte>(front.bytes()));

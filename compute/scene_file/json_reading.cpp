@@ -98,13 +98,13 @@ void read(const json& value, const Place& place, bool& out) {
     out = value.get<bool>();
 }
 
-void read(const json& value, const Place& place, std::size_t& out) {
+void read(const json& value, const Place& place, std::uint64_t& out) {
     if (!value.is_number_unsigned()) refuse(place, "must be a whole number of at least 0, is " + kind(value));
-    out = value.get<std::size_t>();
+    out = value.get<std::uint64_t>();
 }
 
 void read(const json& value, const Place& place, std::uint32_t& out) {
-    std::size_t number = 0;
+    std::uint64_t number = 0;
     read(value, place, number);
     if (number > 0xFFFFFFFFu) refuse(place, "must be below 4294967296");
     out = static_cast<std::uint32_t>(number);

@@ -1,12 +1,15 @@
 // Reading hand-written JSON: every error with its JSON pointer, unknown words with the nearest known one.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,9 +42,18 @@ const json* value_of(const json& object, const Place& place, const char* key, bo
 void read(const json& value, const Place& place, bool& out);
 void read(const json& value, const Place& place, float& out);  // finite
 void read(const json& value, const Place& place, std::string& out);
-void read(const json& value, const Place& place, std::size_t& out);
+void read(const json& value, const Place& place, std::uint64_t& out);
 void read(const json& value, const Place& place, std::uint32_t& out);
 void read(const json& value, const Place& place, std::int32_t& out);
+// std::size_t where it is neither of these types.
+template <std::same_as<std::size_t> Size>
+requires(!std::is_same_v<Size, std::uint64_t> && !std::is_same_v<Size, std::uint32_t>) void read(const json& value,
+                                                                                                 const Place& place, Size& out) {
+    std::uint64_t number = 0;
+    read(value, place, number);
+    if (number > std::numeric_limits<Size>::max()) refuse(place, "must be below 4294967296");
+    out = static_cast<Size>(number);
+}
 // Red, green, blue in sRGB, as numbers or "#rrggbb" or "#rgb".
 void read_color(const json& value, const Place& place, glm::vec3& out);
 // Index of a known word; `what` names the kind of word in messages.

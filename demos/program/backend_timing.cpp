@@ -46,7 +46,7 @@ double step_ms(World& world) {
 std::string this_program() {
     std::error_code none;
     const auto time = std::filesystem::last_write_time(host::own_file(), none);
-    return none ? "" : std::to_string(time.time_since_epoch().count());
+    return none ? "" : std::to_string(static_cast<long long>(time.time_since_epoch().count()));
 }
 
 std::filesystem::path file_of_paces() {

@@ -21,7 +21,7 @@ namespace scree::imports {
 struct MeshMap {
     dmat3 linear{1};
     dvec3 offset{0};  // m
-    auto operator<=>(const MeshMap& o) const { return numbers() <=> o.numbers(); }
+    bool operator<(const MeshMap& o) const { return numbers() < o.numbers(); }
     std::array<double, 12> numbers() const;
 };
 // Triangles of a mirrored mesh face outwards as before.

@@ -30,6 +30,9 @@ double left_of(decltype(RLIMIT_AS) resource, const std::string& line) {
 }  // namespace
 
 std::string processor_name() {
+#ifdef __EMSCRIPTEN__
+    return "WebAssembly";
+#endif
     std::ifstream list("/proc/cpuinfo");
     for (std::string line; std::getline(list, line);) {
         const std::size_t colon = line.find(": ");

@@ -101,7 +101,7 @@ char** utf8_arguments(char** arguments) {
 }
 
 void prepare_streams() {
-    ::_set_fmode(_O_BINARY);
+    _fmode = _O_BINARY;  // of all files that streams open
     for (int stream = 0; stream < 3; ++stream) ::_setmode(stream, _O_BINARY);
     code_page_before = GetConsoleOutputCP();
     if (code_page_before == 0) return;  // no console

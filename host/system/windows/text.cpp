@@ -7,7 +7,7 @@
 
 // The C library's step from bytes to wide characters, by which std::filesystem::path takes its names: from UTF-8, where Windows'
 // takes each byte for a character. Of a character beyond 0xFFFF the first three bytes give one half, the last gives the other.
-extern "C" std::size_t mbrtowc(wchar_t* to, const char* from, std::size_t count, std::mbstate_t* state) {
+extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t count, std::mbstate_t* state) {
     static thread_local std::mbstate_t own{};
     std::mbstate_t& second_half = state ? *state : own;
     const auto wrong = [] {
