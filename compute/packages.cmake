@@ -55,7 +55,8 @@ function(scree_find_packages missing)
             set_target_properties(scree_packages::${name} PROPERTIES IMPORTED_LOCATION ${${id}_LIBRARY})
             if(${id}_LIBRARY MATCHES "\\.a$" AND name MATCHES "^(spng|tinyexr)$")  # which do not name zlib themselves
                 find_package(ZLIB REQUIRED)
-                set_target_properties(scree_packages::${name} PROPERTIES INTERFACE_LINK_LIBRARIES ZLIB::ZLIB)
+                set_target_properties(scree_packages::${name} PROPERTIES INTERFACE_LINK_LIBRARIES ZLIB::ZLIB
+                                      INTERFACE_COMPILE_DEFINITIONS $<$<STREQUAL:${name},spng>:SPNG_STATIC>)  # its header declares a DLL
             endif()
         else()
             add_library(scree_packages::${name} INTERFACE IMPORTED)

@@ -1,31 +1,20 @@
 // The program scree, from its first static object to its last words.
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "demos/program/commands/commands.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "host/files/partial_file.h"
+#include "host/system/interrupts.h"
+#include "host/system/machine.h"
 
 namespace {
 
-// Opens /dev/null on closed standard streams; else the next opened file would get the stream's descriptor and its
-// output.
-void occupy_closed_streams() {
-    for (int stream = 0; stream < 3; ++stream) {
-        if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDONLY);
-    }
-}
-
 // Without memory: a message may not need any.
 int tell_no_memory() {
-    constexpr std::string_view message = "scree: beyond memory: the scene does not fit; ask for fewer --bodies\n";
-    (void)!::write(STDERR_FILENO, message.data(), message.size());
+    scree::host::tell_in_signal("scree: beyond memory: the scene does not fit; ask for fewer --bodies\n");
     return scree::demos::wrong_usage;
 }
 
@@ -35,7 +24,7 @@ int tell_no_memory() {
         if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
         scree::host::remove_unfinished();
-        ::_exit(tell_no_memory());
+        std::_Exit(tell_no_memory());
     } catch (...) {
         std::abort();
     }
@@ -51,10 +40,10 @@ const EndAtOnce from_the_start __attribute__((init_priority(101)));
 }  // namespace
 
 int main(int argc, char** argv) {
-    occupy_closed_streams();
+    scree::host::prepare_streams();
     scree::demos::listen_for_interrupt();
     try {
-        return scree::demos::run_command_line(argc, argv);
+        return scree::demos::run_command_line(argc, scree::host::utf8_arguments(argv));
     } catch (const std::bad_alloc&) {  // also from the command line, and from telling of another error
         return tell_no_memory();
     }

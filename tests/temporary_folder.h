@@ -1,10 +1,9 @@
 // A folder for the files of a test.
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <string>
 
@@ -14,8 +13,9 @@ namespace scree::tests {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "scree-XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
+        std::random_device random;
+        do path_ = std::filesystem::temp_directory_path() / ("scree-" + std::to_string(random()));
+        while (!std::filesystem::create_directory(path_));
     }
     ~TemporaryFolder() {
         std::error_code ignored;

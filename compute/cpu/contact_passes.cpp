@@ -6,6 +6,7 @@
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/contact/contact_pass.h"
 #include "shaders/physics/contact/contact_preparation.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree::reference {
 

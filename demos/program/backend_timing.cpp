@@ -1,8 +1,6 @@
 // Comparison of two runners.
 #include "demos/program/backend_timing.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -13,6 +11,7 @@
 
 #include "compute/world.h"
 #include "host/files/file.h"
+#include "host/system/machine.h"
 
 namespace scree::demos {
 
@@ -43,26 +42,17 @@ double step_ms(World& world) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The file that this code is in: a program, or a module of Python.
-std::filesystem::path own_file() {
-    Dl_info found{};
-    std::error_code none;
-    const bool known = dladdr(reinterpret_cast<const void*>(&own_file), &found) != 0 && found.dli_fname != nullptr;
-    const std::filesystem::path file = known ? found.dli_fname : "";
-    return file.extension() == ".so" && std::filesystem::exists(file, none) ? file : "/proc/self/exe";
-}
-
 // Identifies the build of this program.
 std::string this_program() {
     std::error_code none;
-    const auto time = std::filesystem::last_write_time(own_file(), none);
+    const auto time = std::filesystem::last_write_time(host::own_file(), none);
     return none ? "" : std::to_string(static_cast<long long>(time.time_since_epoch().count()));
 }
 
 std::filesystem::path file_of_paces() {
     const std::filesystem::path folder = host::cache_folder();
     if (folder.empty()) return folder;
-    return folder / (own_file().extension() == ".so" ? "paces-python.json" : "paces.json");
+    return folder / (host::own_file().extension() == ".so" ? "paces-python.json" : "paces.json");
 }
 
 nlohmann::json known_paces() {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <sstream>
+
+#include "host/system/machine.h"
 
 namespace scree::demos {
 
@@ -23,9 +23,8 @@ std::string in_quotes(const std::string& word) {
 }  // namespace
 
 std::string words_of_this_program() {
-    std::ifstream file("/proc/self/cmdline", std::ios::binary);
-    std::string text, word;
-    while (std::getline(file, word, '\0')) text += (text.empty() ? "" : " ") + in_quotes(word);
+    std::string text;
+    for (const std::string& word : host::own_words()) text += (text.empty() ? "" : " ") + in_quotes(word);
     return text;
 }
 

@@ -2,7 +2,6 @@
 #include "demos/program/loaded_scene.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -21,6 +20,7 @@
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
 #include "host/files/file.h"
+#include "host/system/machine.h"
 
 namespace scree::demos {
 
@@ -30,42 +30,13 @@ namespace {
 // out of memory.
 constexpr double bytes_per_body = 7000;
 
-// What a resource limit leaves of the kind of memory that a line of /proc/self/status tells.
-double left_of(decltype(RLIMIT_AS) resource, const std::string& line) {
-    rlimit limit{};
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::numeric_limits<double>::infinity();
-    std::ifstream status("/proc/self/status");
-    double kilobytes = 0;
-    for (std::string key; status >> key; std::getline(status, key))
-        if (key == line && status >> kilobytes) break;
-    return static_cast<double>(limit.rlim_cur) - kilobytes * 1024;
-}
-
-// Memory available to this process, bytes: the system's estimate, or less under a resource limit.
-double available_memory() {
-    double bytes = std::numeric_limits<double>::infinity();
-    std::ifstream system("/proc/meminfo");
-    for (std::string key, unit; system >> key;) {
-        double kilobytes = 0;
-        if (!(system >> kilobytes)) break;
-        std::getline(system, unit);
-        if (key == "MemAvailable:") bytes = kilobytes * 1024;
-    }
-    double limit = 0, used = 0;
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
-        bytes = std::min(bytes, limit - used);
-    }
-    bytes = std::min({bytes, left_of(RLIMIT_AS, "VmSize:"), left_of(RLIMIT_DATA, "VmData:")});
-    return std::max(bytes, 0.0);
-}
-
 std::size_t most_bodies() {
     // Body ids have 32 bits, and the highest ones are reserved.
-    return static_cast<std::size_t>(std::min(available_memory() / bytes_per_body, 4.0e9));
+    return static_cast<std::size_t>(std::min(host::available_memory() / bytes_per_body, 4.0e9));
 }
 
 bool is_file_name(const std::string& name) {
-    return name.find('/') != name.npos || name.ends_with(".json") || is_scene_import(name);
+    return std::filesystem::path(name).has_parent_path() || name.ends_with(".json") || is_scene_import(name);
 }
 
 struct BoundingSphere {
@@ -129,7 +100,7 @@ bool are_default(const Settings& settings) {
 }
 
 std::string free_memory() {
-    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
+    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", host::available_memory() / 1e9,
                        static_cast<double>(most_bodies()) / 1e3);
 }
 
@@ -226,7 +197,7 @@ void limit_memory(World& world, const Backend& machine) {
     const bool on_host = world.runner().in_place();
     if (machine.options.memory != 0) return world.set_memory_limit(machine.options.memory);
     if (machine.has_own_memory() && !on_host) return;
-    const double free = available_memory() / (on_host && machine.device && !machine.has_own_memory() ? 2 : 1);
+    const double free = host::available_memory() / (on_host && machine.device && !machine.has_own_memory() ? 2 : 1);
     world.set_memory_limit(world.buffer_bytes() + static_cast<std::size_t>(free));
 }
 
@@ -254,7 +225,7 @@ Settings LoadedScene::settings(const SceneOptions& options) const {
 }
 
 std::string LoadedScene::title() const {
-    return name.substr(name.rfind('/') + 1);
+    return std::filesystem::path(name).filename().string();
 }
 
 SceneDocument document_of(const LoadedScene& subject) {

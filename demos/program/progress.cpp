@@ -2,12 +2,12 @@
 #include "demos/program/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
 #include "demos/program/console.h"
+#include "host/system/files.h"
 
 namespace scree::demos {
 
@@ -26,7 +26,7 @@ Progress::Progress(std::string what, long total, const char* unit, bool quiet, l
       begun_(begun),
       unit_(unit),
       quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1) {}
+      terminal_(host::is_terminal(2)) {}
 
 Progress::~Progress() {
     if (shown_ && terminal_) say("\r\033[K");

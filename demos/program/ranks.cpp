@@ -1,15 +1,14 @@
 // Loading the module of MPI, and ending together.
 #include "demos/program/ranks.h"
 
-#include <dlfcn.h>
-#include <malloc.h>
-
 #include <chrono>
 #include <filesystem>
 #include <thread>
 
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
+#include "host/system/libraries.h"
+#include "host/system/machine.h"
 
 namespace scree::demos {
 
@@ -18,14 +17,15 @@ namespace {
 constexpr const char* module_name = "libscree_mpi.so";
 
 void* load_module() {
+    if (!host::has_modules) throw UsageError("--distributed: one world on several processes is for Linux; leave the option out");
     std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    const std::filesystem::path folder = host::own_program().parent_path();
     for (const char* at : {".", "../lib/scree", "../lib/x86_64-linux-gnu/scree", "../lib/aarch64-linux-gnu/scree"}) {
         const std::filesystem::path file = folder / at / module_name;
         if (!std::filesystem::exists(file, failed)) continue;
-        // Global: Open MPI loads modules of its own, which need its symbols.
-        if (void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL)) return module;
-        throw UsageError(fmt::format("--distributed: {}", ::dlerror()));
+        std::string reason;
+        if (void* module = host::load_module(file, reason)) return module;
+        throw UsageError(fmt::format("--distributed: {}", reason));
     }
     throw UsageError(fmt::format(
         "--distributed: there is no {} beside this scree; build it where MPI is (package libopenmpi-dev, -DSCREE_MPI=ON)",
@@ -35,11 +35,8 @@ void* load_module() {
 }  // namespace
 
 std::shared_ptr<Exchange> join_ranks(Neighbours& neighbours) {
-    // Tables that are freed go back to the system: by itself the library keeps them once they are larger than ever before.
-#ifdef M_MMAP_THRESHOLD
-    ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-    void* const join = ::dlsym(load_module(), module_function);
+    host::give_memory_back();
+    void* const join = host::function_of(load_module(), module_function);
     if (!join) throw UsageError(fmt::format("--distributed: {} is of another scree", module_name));
     return std::shared_ptr<Exchange>(reinterpret_cast<JoinRanks*>(join)(&neighbours));
 }

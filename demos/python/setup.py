@@ -5,13 +5,15 @@ pip wheel --no-build-isolation --no-deps -w dist demos/python     a wheel for an
 Needs the packages that .ci/setup lists, and no network. The wheel holds libscree and the libraries that it needs, but for the C and
 C++ libraries and the Vulkan loader, which are the machine's; its name says which glibc it needs, and pip refuses an older one. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
 -DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the library from, in place of a build of its own;
-CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
+CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once; SCREE_WHEEL_PLATFORM=win_amd64, a wheel for Windows of the build that
+SCREE_BUILD_FOLDER names (tests/house/windows makes one).
 """
 import os
 import re
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 from setuptools import setup
@@ -21,7 +23,9 @@ from wheel.bdist_wheel import bdist_wheel
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
-LIBRARY = "libscree.so.0"
+# A wheel for Windows is made on Linux, of a build for it.
+FOR_WINDOWS = os.environ.get("SCREE_WHEEL_PLATFORM") == "win_amd64"
+LIBRARY = "scree.dll" if FOR_WINDOWS else "libscree.0.dylib" if sys.platform == "darwin" else "libscree.so.0"
 OF_THE_MACHINE = re.compile(r"^(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|stdc\+\+|gcc_s)|linux-vdso)\.so")
 
 
@@ -49,6 +53,8 @@ def configured() -> Path:
 
 def needed_by(library: Path) -> "list[Path]":
     """The libraries that it loads, and those that these load, but for the machine's."""
+    if not LIBRARY.endswith(".so.0"):  # scree.dll needs none; delocate finds those of macOS
+        return []
     told = subprocess.run(["ldd", str(library)], check=True, capture_output=True, text=True).stdout
     found = re.findall(r"^\s*(\S+) => (\S+)", told, flags=re.M)
     missing = [name for name, place in found if place == "not"]
@@ -76,8 +82,10 @@ class WithLibrary(build_py):
         shutil.copy2(library.resolve(), folder / LIBRARY)
         for one in needed_by(library):
             shutil.copy2(one, folder / one.name)
-        for one in folder.glob("*.so*"):
-            subprocess.run(["strip", "--strip-unneeded", str(one)], check=True)
+        strip = ["x86_64-w64-mingw32-strip"] if FOR_WINDOWS else ["strip", "-x"] if sys.platform == "darwin" else ["strip", "--strip-unneeded"]
+        for pattern in ("*.so*", "*.dll", "*.dylib"):
+            for one in folder.glob(pattern):
+                subprocess.run([*strip, str(one)], check=True)
 
 
 class ForAnyPython(bdist_wheel):
@@ -92,7 +100,7 @@ class ForAnyPython(bdist_wheel):
         libraries = sorted((Path(self.get_finalized_command("build_py").build_lib) / "scree").glob("*.so*"))
         if platform.startswith("linux_") and libraries:
             platform = "manylinux_{}_{}_".format(*glibc_needed_by(libraries)) + platform[len("linux_"):]
-        return "py3", "none", platform
+        return "py3", "none", "win_amd64" if FOR_WINDOWS else platform
 
 
 class OfOneMachine(Distribution):

@@ -1,10 +1,6 @@
 // File input and atomic file output.
 #include "host/files/file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -12,7 +8,8 @@
 #include <system_error>
 
 #include "host/files/partial_file.h"
-#include "host/files/pipe.h"
+#include "host/system/files.h"
+#include "host/system/machine.h"
 
 namespace scree::host {
 namespace {
@@ -31,7 +28,7 @@ public:
     bool close() {
         const int number = number_;
         number_ = -1;
-        return number < 0 || ::close(number) == 0;
+        return number < 0 || close_file(number);
     }
 
 private:
@@ -47,8 +44,7 @@ std::string read_all(const Descriptor& file, const std::filesystem::path& path) 
     for (;;) {
         if (text.size() > most_of_a_pipe && !std::filesystem::is_regular_file(path))
             throw FileError("cannot read " + path.string() + ": it does not end after " + std::to_string(text.size()) + " bytes");
-        const ssize_t count = ::read(file.number(), block, sizeof block);
-        if (count < 0 && errno == EINTR) continue;
+        const std::ptrdiff_t count = read_some(file.number(), block, sizeof block);
         if (count < 0) fail("read", path, errno);
         if (count == 0) return text;
         text.append(block, static_cast<std::size_t>(count));
@@ -57,7 +53,7 @@ std::string read_all(const Descriptor& file, const std::filesystem::path& path) 
 
 void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
     const Waiting for_reader;
-    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    Descriptor file(open_to_write(path));
     if (file.number() < 0) fail("write", path, errno);
     if (const int error = write_all(file.number(), bytes.data(), bytes.size())) fail("write", path, error);
 }
@@ -65,33 +61,31 @@ void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
 }  // namespace
 
 std::filesystem::path cache_folder() {
-    const char* base = std::getenv("XDG_CACHE_HOME");
-    if (base && *base == '/') return std::filesystem::path(base) / "scree";
-    const char* home = std::getenv("HOME");
-    return home && *home == '/' ? std::filesystem::path(home) / ".cache" / "scree" : std::filesystem::path();
+    const std::filesystem::path base = cache_home();
+    return base.empty() ? base : base / "scree";
 }
 
 std::string read_text(const std::filesystem::path& path) {
     std::error_code ignored;
     std::optional<Waiting> for_writer;
     if (std::filesystem::is_other(path, ignored)) for_writer.emplace();
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    Descriptor file(open_to_read(path));
     if (file.number() < 0) fail("read", path, errno);
-    struct stat status {};
-    if (::fstat(file.number(), &status) == 0 && S_ISCHR(status.st_mode) && ::isatty(file.number()) == 0)
+    OpenFile opened;
+    if (look_at(file.number(), opened) && opened.kind == FileKind::characters && !is_terminal(file.number()))
         throw FileError("cannot read " + path.string() + ": it is a device, which may never end");
     return read_all(file, path);
 }
 
 std::string read_regular(const std::filesystem::path& path, std::uintmax_t most) {
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    Descriptor file(open_at_once(path));
     if (file.number() < 0) fail("read", path, errno);
-    struct stat status {};
-    if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
-    if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
-    if (!S_ISREG(status.st_mode)) throw FileError("cannot read " + path.string() + ": it is no regular file");
-    if (static_cast<std::uintmax_t>(status.st_size) > most)
-        throw FileError("cannot read " + path.string() + ": it has " + std::to_string(status.st_size) + " bytes, at most " +
+    OpenFile opened;
+    if (!look_at(file.number(), opened)) fail("read", path, errno);
+    if (opened.kind == FileKind::folder) fail("read", path, EISDIR);
+    if (opened.kind != FileKind::regular) throw FileError("cannot read " + path.string() + ": it is no regular file");
+    if (opened.bytes > most)
+        throw FileError("cannot read " + path.string() + ": it has " + std::to_string(opened.bytes) + " bytes, at most " +
                         std::to_string(most) + " are read");
     return read_all(file, path);
 }
@@ -103,13 +97,13 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return write_in_place(path, bytes);
     const std::filesystem::path target = target_of_links(path), part = partial_name(target);
     const Unfinished unfinished(part);
-    Descriptor file(create_partial(part));
+    Descriptor file(create_held(part));
     if (file.number() < 0) fail("write", path, errno);
     int error = write_all(file.number(), bytes.data(), bytes.size());
     if (!file.close() && error == 0) error = errno;
-    if (error == 0 && ::rename(part.c_str(), target.c_str()) != 0) error = errno;
+    if (error == 0 && !rename_file(part, target)) error = errno;
     if (error != 0) {
-        ::unlink(part.c_str());
+        remove_file(part);
         fail("write", path, error);
     }
 }

@@ -28,7 +28,7 @@ std::string read_regular(const std::filesystem::path& path, std::uintmax_t most)
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-// Folder of caches: $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty if neither is known.
+// Folder of caches: $XDG_CACHE_HOME/scree, else ~/.cache/scree (on Windows %LOCALAPPDATA%\\scree); empty if neither is known.
 std::filesystem::path cache_folder();
 
 // "base.png", or "base-2.png", "base-3.png" and so on, whichever does not exist yet.

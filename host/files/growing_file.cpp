@@ -1,9 +1,6 @@
 // Files that are written bit by bit.
 #include "host/files/growing_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -13,7 +10,7 @@
 
 #include "host/files/file.h"
 #include "host/files/partial_file.h"
-#include "host/files/pipe.h"
+#include "host/system/files.h"
 
 namespace scree::host {
 namespace {
@@ -32,7 +29,7 @@ public:
         buffer_.reserve(block_bytes);
     }
     ~Buffered() {
-        if (number_ >= 0) ::close(number_);
+        if (number_ >= 0) close_file(number_);
     }
     Buffered(const Buffered&) = delete;
     Buffered& operator=(const Buffered&) = delete;
@@ -51,18 +48,12 @@ public:
     }
     void overwrite(std::uint64_t at, std::span<const std::byte> bytes) {
         flush();
-        while (!bytes.empty()) {
-            const ssize_t count = ::pwrite(number_, bytes.data(), bytes.size(), static_cast<off_t>(at));
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) refuse_path("write", path_, errno);
-            bytes = bytes.subspan(static_cast<std::size_t>(count));
-            at += static_cast<std::uint64_t>(count);
-        }
+        if (const int error = write_all_at(number_, at, bytes.data(), bytes.size())) refuse_path("write", path_, error);
     }
     void close() {
         flush();
         const int number = std::exchange(number_, -1);
-        if (::close(number) != 0) refuse_path("write", path_, errno);
+        if (!close_file(number)) refuse_path("write", path_, errno);
     }
     int number() const { return number_; }
 
@@ -94,11 +85,11 @@ GrowingFile::GrowingFile(const std::filesystem::path& path) : interior_(std::mak
         interior_->part = partial_name(interior_->target);
         interior_->unfinished.emplace(interior_->part);
     }
-    interior_->file.emplace(path, in_place ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create_partial(interior_->part));
+    interior_->file.emplace(path, in_place ? open_to_write(path) : create_held(interior_->part));
 }
 
 GrowingFile::~GrowingFile() {
-    if (interior_->file && !interior_->part.empty()) ::unlink(interior_->part.c_str());
+    if (interior_->file && !interior_->part.empty()) remove_file(interior_->part);
 }
 
 void GrowingFile::append(std::string_view bytes) {
@@ -115,7 +106,7 @@ std::uint64_t GrowingFile::size() const {
 
 void GrowingFile::commit() {
     interior_->file->close();
-    if (!interior_->part.empty() && ::rename(interior_->part.c_str(), interior_->target.c_str()) != 0)
+    if (!interior_->part.empty() && !rename_file(interior_->part, interior_->target))
         refuse_path("write", interior_->target, errno);
     interior_->file.reset();
 }
@@ -145,16 +136,13 @@ std::uint64_t ScratchFile::size() const {
 void ScratchFile::rewind() {
     interior_->file->flush();
     interior_->block.resize(block_bytes);
-    if (::lseek(interior_->file->number(), 0, SEEK_SET) != 0)
-        refuse_path("read back what was written for", interior_->beside, errno);
+    if (!go_to_begin(interior_->file->number())) refuse_path("read back what was written for", interior_->beside, errno);
 }
 
 std::string_view ScratchFile::next() {
-    for (;;) {
-        const ssize_t count = ::read(interior_->file->number(), interior_->block.data(), interior_->block.size());
-        if (count >= 0) return {interior_->block.data(), static_cast<std::size_t>(count)};
-        if (errno != EINTR) refuse_path("read back what was written for", interior_->beside, errno);
-    }
+    const std::ptrdiff_t count = read_some(interior_->file->number(), interior_->block.data(), interior_->block.size());
+    if (count < 0) refuse_path("read back what was written for", interior_->beside, errno);
+    return {interior_->block.data(), static_cast<std::size_t>(count)};
 }
 
 }  // namespace scree::host

@@ -1,21 +1,16 @@
 // Files being written: names, the registry for a signal handler, left-overs.
 #include "host/files/partial_file.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <charconv>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
+
+#include "host/system/files.h"
 
 namespace scree::host {
 namespace {
@@ -24,7 +19,7 @@ namespace {
 struct Entry {
     enum State { free, being_filled, filled };
     std::atomic<int> state{free};
-    pid_t writer = 0;
+    ProcessId writer = 0;
     char path[4096] = {};
 };
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not wait");
@@ -34,11 +29,11 @@ std::array<Entry, 32> entries;  // more than the files written concurrently
 constexpr std::string_view mark = ".part-scree-";
 
 // The process in the name of a partial file; 0: it is none.
-pid_t process_in(std::string_view name) {
+ProcessId process_in(std::string_view name) {
     const std::size_t at = name.rfind(mark);
     if (at == name.npos || at == 0) return 0;
     const char *const begin = name.data() + at + mark.size(), *const end = name.data() + name.size();
-    pid_t process = 0;
+    ProcessId process = 0;
     unsigned number = 0;
     const auto [dash, wrong] = std::from_chars(begin, end, process);
     if (wrong != std::errc() || dash == end || *dash != '-') return 0;
@@ -46,13 +41,9 @@ pid_t process_in(std::string_view name) {
     return bad == std::errc() && last == end && process > 0 ? process : 0;
 }
 
-// On a folder that machines share, the process may be another machine's: then the file is locked.
-void remove_if_left(const std::filesystem::path& path, pid_t process) {
-    if (process == ::getpid() || ::kill(process, 0) == 0 || errno != ESRCH) return;
-    const int file = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return;
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
-    ::close(file);
+// On a folder that machines share, the process may be another machine's: then the file is held.
+void remove_if_left(const std::filesystem::path& path, ProcessId process) {
+    if (process != own_process() && is_gone(process)) remove_unless_held(path);
 }
 
 }  // namespace
@@ -88,23 +79,8 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
     static std::atomic<unsigned> serial{0};
     remove_left_overs(target.has_parent_path() ? target.parent_path() : ".");
     std::filesystem::path partial = target;
-    partial += std::string(mark) + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+    partial += std::string(mark) + std::to_string(own_process()) + "-" + std::to_string(serial++);
     return partial;
-}
-
-int create_partial(const std::filesystem::path& partial) {
-    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file >= 0) ::flock(file, LOCK_EX | LOCK_NB);  // without locks here, the process in its name protects it
-    return file;
-}
-
-int create_nameless(const std::filesystem::path& folder) {
-    const int made = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;
-    std::string name = (folder / ".scree-XXXXXX").string();
-    const int named = ::mkostemp(name.data(), O_CLOEXEC);
-    if (named >= 0) ::unlink(name.c_str());
-    return named;
 }
 
 void remove_left_overs(const std::filesystem::path& folder) {
@@ -117,10 +93,10 @@ void remove_left_overs(const std::filesystem::path& folder) {
         if (wrong || !looked.insert(place).second) return;
     }
     for (std::filesystem::directory_iterator entry(place, wrong), end; !wrong && entry != end; entry.increment(wrong))
-        if (const pid_t process = process_in(entry->path().filename().string())) remove_if_left(entry->path(), process);
+        if (const ProcessId process = process_in(entry->path().filename().string())) remove_if_left(entry->path(), process);
 }
 
-Unfinished::Unfinished(const std::filesystem::path& path, pid_t writer) {
+Unfinished::Unfinished(const std::filesystem::path& path, ProcessId writer) {
     std::error_code ignored;
     const std::string name = std::filesystem::absolute(path, ignored).string();
     if (name.empty() || name.size() >= sizeof Entry::path) return;
@@ -142,8 +118,8 @@ Unfinished::~Unfinished() {
 void remove_unfinished() noexcept {
     for (Entry& entry : entries) {
         if (entry.state != Entry::filled) continue;
-        if (entry.writer > 0) ::kill(entry.writer, SIGKILL);
-        ::unlink(entry.path);
+        if (entry.writer > 0) end_process(entry.writer);
+        remove_file_in_signal(entry.path);
     }
 }
 

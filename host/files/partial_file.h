@@ -1,9 +1,9 @@
 // Files being written: their names, a registry for signal handlers, and what programs that were killed have left.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+
+#include "host/system/processes.h"
 
 namespace scree::host {
 
@@ -22,7 +22,7 @@ class Unfinished {
 public:
     // `writer`: the child process that writes the file, if any. When the fixed-size list is full, the file is not
     // registered.
-    explicit Unfinished(const std::filesystem::path& path, pid_t writer = 0);
+    explicit Unfinished(const std::filesystem::path& path, ProcessId writer = 0);
     ~Unfinished();
     Unfinished(const Unfinished&) = delete;
     Unfinished& operator=(const Unfinished&) = delete;
@@ -37,14 +37,6 @@ std::filesystem::path target_of_links(const std::filesystem::path& path);
 // A new name beside the target, "NAME.part-scree-PID-N". The first in a folder removes what programs that are gone have left
 // there.
 std::filesystem::path partial_name(const std::filesystem::path& target);
-
-// Creates and locks such a file, never one that is there or a link; the lock tells others that its writer lives. Returns the
-// descriptor, or -1 with errno.
-int create_partial(const std::filesystem::path& partial);
-
-// An open file of a folder that has no name, and ends with its descriptor, or -1 with errno. (Where the file system knows no such
-// files it has a name for a moment.)
-int create_nameless(const std::filesystem::path& folder);
 
 // Removes "*.part-scree-PID-N" of processes that are gone from a folder; once per folder and process.
 void remove_left_overs(const std::filesystem::path& folder);

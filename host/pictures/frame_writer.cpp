@@ -1,10 +1,6 @@
 // Frame output as PNG files, video, preview and raw pixels, encoded on threads of its own.
 #include "host/pictures/frame_writer.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <condition_variable>
@@ -22,6 +18,7 @@
 
 #include "host/pictures/raw_frames.h"
 #include "host/pictures/video.h"
+#include "host/system/files.h"
 
 namespace scree::host {
 namespace {
@@ -115,13 +112,13 @@ class Claim {
 public:
     Claim() = default;
     ~Claim() {
-        if (folder_ >= 0) ::close(folder_);
+        if (folder_ >= 0) close_file(folder_);
     }
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;
     void take(const std::filesystem::path& folder) {
-        folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (folder_ >= 0 && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        folder_ = hold_folder(folder);
+        if (folder_ < 0 && errno == EWOULDBLOCK)
             throw ImageError(folder.string() + ": another run writes its frames there; name another folder");
     }
 

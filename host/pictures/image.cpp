@@ -2,7 +2,6 @@
 #include "host/pictures/image.h"
 
 #include <spng.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -17,6 +16,7 @@
 #include "host/files/file.h"
 #include "host/files/partial_file.h"
 #include "host/pictures/png_encoder.h"
+#include "host/system/files.h"
 
 namespace scree::host {
 namespace {
@@ -137,7 +137,7 @@ void write_png(const std::filesystem::path& path, const Image& image) {
 }
 
 Image read_png(const std::filesystem::path& path) {
-    const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    const File file(open_stream(path), &std::fclose);
     if (!file) throw ImageError(path.string() + ": cannot be read: " + std::strerror(errno));
     const Context context(spng_ctx_new(0), &spng_ctx_free);
     if (!context) throw ImageError("PNG: out of memory");
@@ -166,7 +166,7 @@ void require_writable_folder(const std::filesystem::path& folder) {
     // Create a file: checking permissions would miss a full or read-only file system.
     const int made = create_nameless(at);
     if (made < 0) throw ImageError(at.string() + ": no file can be made in this folder: " + std::strerror(errno));
-    ::close(made);
+    close_file(made);
 }
 
 }  // namespace scree::host

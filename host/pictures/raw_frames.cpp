@@ -1,16 +1,13 @@
 // Raw video frames.
 #include "host/pictures/raw_frames.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <optional>
 #include <string>
 
 #include "host/files/partial_file.h"
-#include "host/files/pipe.h"
+#include "host/system/files.h"
 
 namespace scree::host {
 
@@ -25,15 +22,15 @@ struct RawFrames::Impl {
         throw ImageError(name + ": no frame can be written: " +
                          (error == EPIPE ? "the program that reads them has ended" : std::strerror(error)));
     }
-    void open(const std::filesystem::path& path, int flags) {
-        descriptor = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+    void own(int opened) {
+        descriptor = opened;
         if (descriptor < 0) fail(errno);
         owned = true;
     }
     int close() {
         const int number = descriptor;
         descriptor = -1;
-        return owned && number >= 0 && ::close(number) != 0 ? errno : 0;
+        return owned && number >= 0 && !close_file(number) ? errno : 0;
     }
 };
 
@@ -41,8 +38,8 @@ RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_un
     Impl& in = *interior_;
     in.name = path == "-" ? "the standard output" : path.string();
     if (path == "-") {
-        in.descriptor = STDOUT_FILENO;
-        if (::isatty(STDOUT_FILENO) == 1) {
+        in.descriptor = 1;
+        if (is_terminal(in.descriptor)) {
             throw ImageError("the standard output is a terminal, which cannot show raw frames; send them into a file or a pipe");
         }
         return;
@@ -51,16 +48,14 @@ RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_un
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) throw ImageError(in.name + ": is a folder; name a file, a pipe, or -");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        in.open(path, 0);
+        in.own(open_to_write(path));
         return;
     }
     require_writable_folder(path.parent_path());
     in.target = target_of_links(path);
     in.partial = partial_name(in.target);
     in.unfinished.emplace(in.partial);
-    in.descriptor = create_partial(in.partial);
-    if (in.descriptor < 0) in.fail(errno);
-    in.owned = true;
+    in.own(create_held(in.partial));
 }
 
 RawFrames::~RawFrames() {
@@ -72,7 +67,6 @@ RawFrames::~RawFrames() {
 
 void RawFrames::add(const Image& image) {
     if (interior_->descriptor < 0) throw ImageError(interior_->name + ": no more frames can be added");
-    const PipeSignalHeld held;
     const std::vector<std::uint8_t> bytes = rgb_bytes(image);
     if (const int error = write_all(interior_->descriptor, bytes.data(), bytes.size())) interior_->fail(error);
 }

@@ -1,17 +1,9 @@
 // A video file or an animated picture, encoded by ffmpeg from frames sent through a pipe.
 #include "host/pictures/video.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <sstream>
@@ -19,21 +11,16 @@
 #include <vector>
 
 #include "host/files/partial_file.h"
-#include "host/files/pipe.h"
-
-extern char** environ;
+#include "host/system/files.h"
+#include "host/system/libraries.h"
+#include "host/system/processes.h"
 
 namespace scree::host {
 namespace {
 
-std::string find_ffmpeg() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::string candidate = (folder.empty() ? "." : folder) + "/ffmpeg";
-        if (::access(candidate.c_str(), X_OK) == 0) return candidate;
-    }
-    throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video and --preview");
+std::filesystem::path find_ffmpeg() {
+    if (const auto found = find_program("ffmpeg")) return *found;
+    throw ImageError(std::string("ffmpeg not found: ") + ffmpeg_cure + ", or leave out --video and --preview");
 }
 
 // Resolves symbolic links, so that the target is replaced and not the link. Throws ImageError unless the target is a
@@ -116,81 +103,54 @@ const char* example_of(Clip clip) {
 
 }  // namespace
 
-constexpr int output_number = 3;  // of the file descriptor in ffmpeg
-
 struct Video::Impl {
     std::filesystem::path path, target, partial;
     VideoShape shape;
     std::optional<Unfinished> unfinished;
-    pid_t process = -1;
+    ProcessId process = -1;
     int pipe = -1;    // to ffmpeg's input
     int errors = -1;  // ffmpeg's standard error, an unnamed file
     int claim = -1;   // holds the lock of the partial file, which ffmpeg opens itself
 
-    void start(const std::string& program);
-    int wait();
+    void start(const std::filesystem::path& program);
+    ChildEnd wait();
     [[noreturn]] void fail();
     void discard();
     void release() {
-        if (claim >= 0) ::close(claim);
+        if (claim >= 0) close_file(claim);
         claim = -1;
     }
 };
 
-void Video::Impl::start(const std::string& program) {
+void Video::Impl::start(const std::filesystem::path& program) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
+    if (!make_pipe(ends)) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
     pipe = ends[1];
-    errors = ::memfd_create("ffmpeg", MFD_CLOEXEC);
-    // By number: were this program killed, an ffmpeg that opens a name only later would make a file that nobody removes.
-    Words words = command_of(program, shape, "/proc/self/fd/" + std::to_string(output_number));
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    if (errors >= 0) posix_spawn_file_actions_adddup2(&actions, errors, 2);
-    posix_spawn_file_actions_addopen(&actions, output_number, partial.c_str(), O_RDWR, 0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    // A process group of its own, so that Ctrl-C reaches only the simulation, which finishes or discards the video.
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-    const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[0]);
-    if (error != 0) {
-        process = -1;
+    errors = create_in_memory();
+    process = start_child(program, command_of(program.string(), shape, child_output(partial)), {ends[0], errors, partial});
+    const int error = errno;
+    close_file(ends[0]);
+    if (process < 0) {
         discard();
-        throw ImageError(program + ": cannot be started: " + std::strerror(error));
+        throw ImageError(program.string() + ": cannot be started: " + std::strerror(error));
     }
     unfinished.emplace(partial, process);
 }
 
-int Video::Impl::wait() {
-    if (pipe >= 0) ::close(pipe);
+ChildEnd Video::Impl::wait() {
+    if (pipe >= 0) close_file(pipe);
     pipe = -1;
-    int status = 0;
-    if (process > 0) {
-        while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-        }
-    }
+    ChildEnd end;
+    if (process > 0) end = wait_for_child(process);
     process = -1;
     if (unfinished) unfinished.emplace(partial);  // registered without a writer: ffmpeg has exited
-    return status;
+    return end;
 }
 
 void Video::Impl::fail() {
     wait();
     std::string said(4096, '\0');
-    const ssize_t n = errors >= 0 ? ::pread(errors, said.data(), said.size(), 0) : 0;
+    const std::ptrdiff_t n = errors >= 0 && go_to_begin(errors) ? read_some(errors, said.data(), said.size()) : 0;
     said.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
     while (!said.empty() && said.back() == '\n') said.pop_back();
     discard();
@@ -198,9 +158,9 @@ void Video::Impl::fail() {
 }
 
 void Video::Impl::discard() {
-    if (process > 0) ::kill(process, SIGKILL);
+    if (process > 0) end_process(process);
     wait();
-    if (errors >= 0) ::close(errors);
+    if (errors >= 0) close_file(errors);
     errors = -1;
     std::error_code ignored;
     if (claim >= 0) std::filesystem::remove(partial, ignored);
@@ -213,13 +173,13 @@ Video::Video(const std::filesystem::path& path, const VideoShape& shape) : inter
         throw ImageError(path.string() + ": a video needs at least 2 x 2 pixels and a positive frame rate");
     }
     const std::filesystem::path target = target_of(path, example_of(shape.clip));
-    const std::string program = find_ffmpeg();
+    const std::filesystem::path program = find_ffmpeg();
     require_writable_folder(target.parent_path());
     interior_->path = path;
     interior_->target = target;
     interior_->partial = partial_name(target);
     interior_->shape = shape;
-    interior_->claim = create_partial(interior_->partial);
+    interior_->claim = create_held(interior_->partial);
     if (interior_->claim < 0) throw ImageError(path.string() + ": cannot be written: " + std::strerror(errno));
     interior_->start(program);
 }
@@ -238,14 +198,13 @@ void Video::add(const Image& image) {
         throw ImageError(interior_->path.string() + ": a frame has " + words(image.width, image.height, image.bits) +
                          ", the video " + words(shape.width, shape.height, shape.bits));
     }
-    const PipeSignalHeld held;
     if (write_all(interior_->pipe, image.rgba.data(), image.rgba.size()) != 0) interior_->fail();
 }
 
 void Video::finish() {
     if (interior_->process < 0) return;
-    const int status = interior_->wait();
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) interior_->fail();
+    const ChildEnd end = interior_->wait();
+    if (end.by_signal || end.status != 0) interior_->fail();
     std::error_code error;
     std::filesystem::rename(interior_->partial, interior_->target, error);
     if (error) throw ImageError(interior_->path.string() + ": cannot be written: " + error.message());

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "host/system/machine.h"
+
 namespace scree::host {
 namespace {
 
@@ -51,8 +53,8 @@ void show_unlisted_drivers() {
     const auto files = driver_files(listed, {"/usr/local/nvidia/share/vulkan/icd.d"});
     if (!files) return;
     // Loaders before 1.3.207 know the second name alone.
-    setenv("VK_DRIVER_FILES", files->c_str(), 1);
-    setenv("VK_ICD_FILENAMES", files->c_str(), 1);
+    set_environment("VK_DRIVER_FILES", *files);
+    set_environment("VK_ICD_FILENAMES", *files);
 }
 
 }  // namespace scree::host

@@ -2,6 +2,9 @@
 #include "host/vulkan/instance.h"
 
 #include <cstring>
+#include <string>
+
+#include "host/system/libraries.h"
 
 namespace scree::host {
 namespace {
@@ -31,7 +34,7 @@ Instance::Instance(bool validation, std::function<void(const std::string&)> on_m
                    const std::vector<const char*>& extensions)
     : on_message_(std::move(on_message)) {
     if (!vk_.load()) {
-        throw DeviceError("no Vulkan loader (libvulkan.so.1) on this machine: apt-get install libvulkan1 mesa-vulkan-drivers");
+        throw DeviceError(std::string("no Vulkan loader (") + vulkan_library[0] + ") on this machine: " + vulkan_cure);
     }
     std::uint32_t version = VK_API_VERSION_1_0;
     if (vk_.vkEnumerateInstanceVersion) vk_.vkEnumerateInstanceVersion(&version);
@@ -85,8 +88,7 @@ void Instance::create(bool validation, std::vector<const char*> extensions) {
     info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = vk_.vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-        throw DeviceError(
-            "no Vulkan driver on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
+        throw DeviceError(std::string("no Vulkan driver on this machine: ") + vulkan_cure);
     }
     check(result, "creating a Vulkan instance");
     if (!validation) return;
@@ -106,8 +108,7 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
     std::vector<VkPhysicalDevice> devices(count);
     if (result == VK_SUCCESS && count > 0) result = vk_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     if (count == 0 || result == VK_ERROR_INITIALIZATION_FAILED) {
-        throw DeviceError(
-            "no Vulkan device on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
+        throw DeviceError(std::string("no Vulkan device on this machine: ") + vulkan_cure);
     }
     check(result, "listing the Vulkan devices");
     return devices;

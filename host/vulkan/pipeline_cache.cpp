@@ -50,9 +50,10 @@ PipelineCache::PipelineCache(const VulkanFunctions& vk, VkPhysicalDevice physica
     properties.pNext = &id;
     vk.vkGetPhysicalDeviceProperties2(physical, &properties);
     if (const std::filesystem::path folder = cache_folder(); !folder.empty()) {
-        path_ =
-            folder / ("pipelines-" + hexadecimal(id.deviceUUID, VK_UUID_SIZE) + "-" + hexadecimal(id.driverUUID, VK_UUID_SIZE) +
-                      "-" + hexadecimal(properties.properties.pipelineCacheUUID, VK_UUID_SIZE));
+        const std::string name = "pipelines-" + hexadecimal(id.deviceUUID, VK_UUID_SIZE) + "-" +
+                                 hexadecimal(id.driverUUID, VK_UUID_SIZE) + "-" +
+                                 hexadecimal(properties.properties.pipelineCacheUUID, VK_UUID_SIZE);
+        path_ = (folder / name).string();
     }
     loaded_ = read_intact(path_);
     VkPipelineCacheCreateInfo info{};

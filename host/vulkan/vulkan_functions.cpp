@@ -1,20 +1,15 @@
 // Vulkan function pointers, loaded at run time.
 #include "host/vulkan/vulkan_functions.h"
 
-#include <dlfcn.h>
-
+#include "host/system/libraries.h"
 #include "host/vulkan/driver_search.h"
 
 namespace scree::host {
 namespace {
 
-// Never unloaded: drivers leave threads and exit handlers in the library.
 void* loader() {
     static void* const library = [] {
-        void* found = nullptr;
-        // The last is that of the portable archive (demos/packaging/bundle.cmake).
-        for (const char* name : {"libvulkan.so.1", "libvulkan.so", "$ORIGIN/fallback/libvulkan.so.1"})
-            if (!found) found = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+        void* const found = load_library(vulkan_library);
         if (found) show_unlisted_drivers();
         return found;
     }();
@@ -25,7 +20,7 @@ void* loader() {
 
 bool VulkanFunctions::load() {
     if (!loader()) return false;
-    vkGetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(loader(), "vkGetInstanceProcAddr"));
+    vkGetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(function_of(loader(), "vkGetInstanceProcAddr"));
     if (!vkGetInstanceProcAddr) return false;
 #define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(nullptr, #name));
     SCREE_VULKAN_LOADER_FUNCTIONS(SCREE_LOAD)

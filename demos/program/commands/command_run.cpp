@@ -32,6 +32,7 @@
 #include "demos/scenes/demos.h"
 #include "demos/suite/recorder.h"
 #include "host/files/file.h"
+#include "host/system/machine.h"
 
 namespace scree::demos {
 
@@ -342,7 +343,7 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     hold_to_recording(options, report);
     if (adviser) report.advice = adviser->advice(world, report.statistics);
     report.seconds_total = seconds_since(report.started);
-    report.peak_memory_bytes = peak_memory();
+    report.peak_memory_bytes = host::peak_memory();
     if (options.exchange) report.ranks = costs_of(*options.exchange, report);
     if (!report.interrupted) machine.require_valid();
     conclude(options, subject, report);

@@ -2,7 +2,6 @@
 #include "demos/program/options/output_check.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -10,7 +9,7 @@
 #include <map>
 
 #include "demos/program/exit_status.h"
-#include "host/files/partial_file.h"
+#include "host/system/files.h"
 
 namespace scree::demos {
 
@@ -31,7 +30,7 @@ void require_writable_file(const char* option, const std::string& name) {
     const std::filesystem::file_status status = std::filesystem::status(name, ignored);
     if (std::filesystem::is_directory(status)) refuse("is a folder; name a file in it");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // /dev/stdout, a pipe
-        if (::access(name.c_str(), W_OK) != 0) refuse(std::string("cannot be written: ") + std::strerror(errno));
+        if (!host::may_write(name)) refuse(std::string("cannot be written: ") + std::strerror(errno));
         return;
     }
     std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(name, ignored) : "";
@@ -44,7 +43,7 @@ void require_writable_file(const char* option, const std::string& name) {
     if (made < 0) {
         refuse(fmt::format("no file can be made in the folder {}: {}; name another", folder.string(), std::strerror(errno)));
     }
-    ::close(made);
+    host::close_file(made);
 }
 
 void require_distinct(std::initializer_list<NamedOutput> outputs) {

@@ -2,12 +2,11 @@
 #include "demos/program/outputs/report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -27,12 +26,6 @@ Spread spread_of(std::vector<double> step_ms) {
     return {mean, (step_ms[(n - 1) / 2] + step_ms[n / 2]) / 2, step_ms[(n * 95 + 99) / 100 - 1], step_ms.front()};
 }
 
-std::size_t peak_memory() {
-    rusage usage{};
-    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB
-}
-
 std::string program_version() {
     return SCREE_VERSION;
 }
@@ -45,11 +38,12 @@ std::string program_compiler() {
 }
 
 std::string date_and_time() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    ::gmtime_r(&now, &parts);
-    std::array<char, 32> text{};
-    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+    using namespace std::chrono;
+    const auto now = floor<seconds>(system_clock::now());
+    const year_month_day day(floor<days>(now));
+    const hh_mm_ss time(now - floor<days>(now));
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
+                       static_cast<unsigned>(day.day()), time.hours().count(), time.minutes().count(), time.seconds().count());
 }
 
 namespace {

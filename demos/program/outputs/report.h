@@ -68,7 +68,6 @@ std::string program_commit();  // "unknown" outside a repository
 std::string program_compiler();
 std::string date_and_time();  // now, UTC, "2026-01-31T12:00:00Z"
 
-std::size_t peak_memory();  // peak resident memory of this process, bytes
 std::string json_of(const RunReport& report);
 std::string summary_of(const RunReport& report);
 

@@ -1,15 +1,10 @@
 // Runs of a sweep as processes.
 #include "demos/program/sweep/sweep_runs.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -19,6 +14,8 @@
 
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
+#include "host/system/files.h"
+#include "host/system/processes.h"
 
 namespace scree::demos {
 
@@ -34,29 +31,16 @@ std::string first_line_of(const fs::path& path) {
     return "";
 }
 
-// In the child: only what is safe after fork().
-[[noreturn]] void become(char* const* words, int errors) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive the sweep
-    ::setpgid(0, 0);                     // the terminal's Ctrl-C reaches the sweep alone, which ends its runs
-    const int nothing = ::open("/dev/null", O_RDWR);
-    ::dup2(nothing, 0), ::dup2(nothing, 1), ::dup2(errors, 2);
-    ::execv("/proc/self/exe", words);
-    _exit(127);
-}
-
-pid_t start(const SweepRuns& runs, std::size_t run) {
-    std::vector<std::string> arguments = runs.arguments(run);
-    arguments.insert(arguments.begin(), "scree");
-    arguments.insert(arguments.end(), {"--quiet", "--report", runs.report(run).string()});
-    std::vector<char*> words;
-    for (std::string& one : arguments) words.push_back(one.data());
-    words.push_back(nullptr);
-    const int errors = ::open(runs.message(run).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+host::ProcessId start(const SweepRuns& runs, std::size_t run) {
+    std::vector<std::string> words = runs.arguments(run);
+    words.insert(words.begin(), "scree");
+    words.insert(words.end(), {"--quiet", "--report", runs.report(run).string()});
+    const int errors = host::open_to_replace(runs.message(run));
     if (errors < 0) throw WorkFailed(fmt::format("cannot write {}: {}", runs.message(run).string(), std::strerror(errno)));
-    const pid_t child = ::fork();
-    if (child == 0) become(words.data(), errors);
-    ::close(errors);
-    if (child < 0) throw WorkFailed(fmt::format("cannot start a run: {}", std::strerror(errno)));
+    const host::ProcessId child = host::start_self(std::move(words), {-1, errors, {}});
+    const int error = errno;
+    host::close_file(errors);
+    if (child < 0) throw WorkFailed(fmt::format("cannot start a run: {}", std::strerror(error)));
     return child;
 }
 
@@ -80,12 +64,12 @@ SweepOutcome run_all(const SweepRuns& runs, const std::vector<std::size_t>& want
                      const std::function<void(std::size_t)>& progress,
                      const std::function<void(std::size_t, const std::string&)>& failed) {
     SweepOutcome outcome;
-    std::map<pid_t, std::size_t> running;
+    std::map<host::ProcessId, std::size_t> running;
     std::error_code ignored;
-    const auto end = [&](pid_t child, int status) {
+    const auto end = [&](host::ProcessId child, const host::ChildEnd& how) {
         const std::size_t run = running.at(child);
         running.erase(child);
-        const bool whole = WIFEXITED(status) && (WEXITSTATUS(status) == done || WEXITSTATUS(status) == promise_missed);
+        const bool whole = !how.by_signal && (how.status == done || how.status == promise_missed);
         if (whole && runs.is_done(run)) {
             fs::remove(runs.message(run), ignored);
             ++outcome.done;
@@ -97,14 +81,13 @@ SweepOutcome run_all(const SweepRuns& runs, const std::vector<std::size_t>& want
             return;
         }
         std::string why = first_line_of(runs.message(run));
-        if (why.empty() && WIFSIGNALED(status)) why = fmt::format("ended by signal {}", WTERMSIG(status));
-        if (why.empty()) why = fmt::format("exit status {}", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+        if (why.empty()) why = fmt::format("{} {}", how.by_signal ? "ended by signal" : "exit status", how.status);
         ++outcome.failed;
         failed(run, why);
     };
     const auto end_all = [&] {
         outcome.interrupted = true;
-        for (const auto& [child, run] : running) ::kill(child, SIGKILL);
+        for (const auto& [child, run] : running) host::end_process(child);
     };
     std::size_t next = 0;
     try {
@@ -115,16 +98,20 @@ SweepOutcome run_all(const SweepRuns& runs, const std::vector<std::size_t>& want
                 const std::size_t run = wanted[next++];
                 running.emplace(start(runs, run), run);
             }
-            int status = 0;
-            const pid_t child = ::waitpid(-1, &status, WNOHANG);
-            if (child > 0 && running.contains(child)) end(child, status);
+            bool one_ended = false;
+            for (auto at = running.begin(); at != running.end();) {
+                const host::ProcessId child = at++->first;
+                const auto how = host::end_of_child(child);
+                if (how) end(child, *how);
+                one_ended = one_ended || how;
+            }
             progress(outcome.done + outcome.failed);
-            if (child <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            if (!one_ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
     } catch (...) {
         end_all();
         for (const auto& [child, run] : running) {
-            ::waitpid(child, nullptr, 0);
+            host::wait_for_child(child);
             fs::remove(runs.report(run), ignored), fs::remove(runs.message(run), ignored);
         }
         throw;

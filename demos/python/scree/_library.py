@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from pathlib import Path
 from typing import Any, Iterator, Type
 
 from scree._errors import CheckpointError, DeviceError, SceneError
 
-NAME = "libscree.so.0"
+NAME = {"win32": "scree.dll", "darwin": "libscree.0.dylib"}.get(sys.platform, "libscree.so.0")
 _HERE = Path(__file__).absolute().parent
 
 

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "host/system/libraries.h"
+
 namespace scree::host {
 namespace {
 
@@ -27,7 +29,7 @@ std::string text_of(const GLubyte* text) {
 
 GlContext::GlContext() {
     if (!egl_.load()) {
-        throw DeviceError("no EGL (libEGL.so.1) on this machine: apt-get install libegl1 libgles2 libgl1-mesa-dri");
+        throw DeviceError(std::string("no EGL (") + egl_library[0] + ") on this machine: " + egl_cure);
     }
     if (!open_any()) {
         throw DeviceError(

@@ -1,37 +1,29 @@
 // EGL and OpenGL ES function pointers, loaded at run time.
 #include "host/canvas/gl/gl_functions.h"
 
-#include <dlfcn.h>
+#include "host/system/libraries.h"
 
 namespace scree::host {
 namespace {
 
-// Never unloaded: drivers leave threads and exit handlers in the library.
-void* library(const char* name) {
-#ifdef __EMSCRIPTEN__  // whose dlopen() ends the program
-    return static_cast<void>(name), nullptr;
-#else
-    return dlopen(name, RTLD_NOW | RTLD_LOCAL);
-#endif
-}
-void* egl_library() {
-    static void* const found = library("libEGL.so.1");
+void* egl() {
+    static void* const found = load_library(egl_library);
     return found;
 }
-void* gles_library() {
-    static void* const found = library("libGLESv2.so.2");
+void* gles() {
+    static void* const found = load_library(gles_library);
     return found;
 }
 
 }  // namespace
 
 bool EglFunctions::load() {
-    if (!egl_library()) return false;
+    if (!egl()) return false;
     bool complete = true;
-    eglGetProcAddress = reinterpret_cast<PFNEGLGETPROCADDRESSPROC>(dlsym(egl_library(), "eglGetProcAddress"));
+    eglGetProcAddress = reinterpret_cast<PFNEGLGETPROCADDRESSPROC>(function_of(egl(), "eglGetProcAddress"));
     if (!eglGetProcAddress) return false;
-#define SCREE_LOAD(name, type)                                                \
-    name = reinterpret_cast<PFNEGL##type##PROC>(dlsym(egl_library(), #name)); \
+#define SCREE_LOAD(name, type)                                              \
+    name = reinterpret_cast<PFNEGL##type##PROC>(function_of(egl(), #name)); \
     complete = complete && name;
     SCREE_EGL_FUNCTIONS(SCREE_LOAD)
 #undef SCREE_LOAD
@@ -44,9 +36,9 @@ bool EglFunctions::load() {
 
 const char* GlFunctions::load(const EglFunctions& egl) {
     const char* missing = nullptr;
-    // Prefer dlsym: before EGL 1.5 eglGetProcAddress returns extension functions only.
+    // Prefer the library: before EGL 1.5 eglGetProcAddress returns extension functions only.
     const auto find = [&](const char* name) {
-        void* const function = gles_library() ? dlsym(gles_library(), name) : nullptr;
+        void* const function = gles() ? function_of(gles(), name) : nullptr;
         return function ? reinterpret_cast<void (*)()>(function) : reinterpret_cast<void (*)()>(egl.eglGetProcAddress(name));
     };
 #define SCREE_LOAD(name, type)                               \
