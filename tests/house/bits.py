@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# State hashes of every demo and trial, beside those on record.
 """The bits of every demo and trial on the CPU path, beside those on record (demos/records/hashes.txt):
 tests/house/bits.py PROGRAM [--keep] [--row "SYSTEM | COMPILER"].
 
