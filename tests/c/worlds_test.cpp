@@ -401,6 +401,7 @@ TEST_CASE("c: an export is there at once, and whole when its world ends") {
         ok(scree_export_close(closed));
         CHECK(std::filesystem::file_size(first) > before);
         refused(scree_export_close(closed), SCREE_BAD_HANDLE, "released");
+#ifndef _WIN32  // where a folder stays while a file in it is open
         // One that cannot be written may be closed again.
         const std::filesystem::path gone = folder.path() / "gone";
         std::filesystem::create_directory(gone);
@@ -411,6 +412,7 @@ TEST_CASE("c: an export is there at once, and whole when its world ends") {
         std::filesystem::create_directory(gone);
         ok(scree_export_close(third));
         CHECK(std::filesystem::exists(gone / "c.glb"));
+#endif
     }
     CHECK(std::filesystem::file_size(second) > at_once);
 }

@@ -40,26 +40,12 @@ int open_as(const std::filesystem::path& path, DWORD access, DWORD how, DWORD at
     return descriptor_of(CreateFileW(path.c_str(), access, share, nullptr, how, attributes, nullptr), flags);
 }
 
-template <class Write>
-int all_written(const void* data, std::size_t bytes, const Write& write) {
-    constexpr std::size_t most = 1u << 20;
-    const char* from = static_cast<const char*>(data);
-    while (bytes > 0) {
-        const int written = write(from, static_cast<unsigned>(std::min(bytes, most)));
-        if (written < 0) return errno == EINVAL ? EPIPE : errno;  // so the C library tells of a pipe without a reader
-        if (written == 0) return ENOSPC;
-        from += written;
-        bytes -= static_cast<std::size_t>(written);
-    }
-    return 0;
-}
-
 int create_scratch(const std::filesystem::path& folder) {
     static std::atomic<unsigned> serial{0};
     const std::filesystem::path name =
         folder / (".scree-" + std::to_string(GetCurrentProcessId()) + "-" + std::to_string(serial++));
     return open_as(name, GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE,
-                   _O_RDWR);
+                   _O_RDWR);  // it has its name, and its folder stays, until it is closed
 }
 
 }  // namespace
@@ -119,8 +105,19 @@ std::ptrdiff_t read_some(int file, void* to, std::size_t bytes) {
     return ::_read(file, to, static_cast<unsigned>(std::min(bytes, most)));
 }
 
-int write_all(int file, const void* from, std::size_t bytes) {
-    return all_written(from, bytes, [&](const char* part, unsigned count) { return ::_write(file, part, count); });
+// Not by the C library, which tells neither of a full disk nor of a pipe without a reader.
+int write_all(int file, const void* data, std::size_t bytes) {
+    constexpr std::size_t most = 1u << 20;
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+        DWORD written = 0;
+        if (!WriteFile(handle_of(file), from, static_cast<DWORD>(std::min(bytes, most)), &written, nullptr))
+            return errno_of(GetLastError());
+        if (written == 0) return ENOSPC;
+        from += written;
+        bytes -= written;
+    }
+    return 0;
 }
 
 int write_all_at(int file, std::uint64_t at, const void* from, std::size_t bytes) {
