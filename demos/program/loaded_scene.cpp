@@ -2,6 +2,10 @@
 #include "demos/program/loaded_scene.h"
 
 #include <fmt/format.h>
+#ifdef __EMSCRIPTEN__
+#include <emscripten/heap.h>
+#include <unistd.h>
+#endif
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -43,6 +47,9 @@ double left_of(decltype(RLIMIT_AS) resource, const std::string& line) {
 
 // Memory available to this process, bytes: the system's estimate, or less under a resource limit.
 double available_memory() {
+#ifdef __EMSCRIPTEN__  // what the module may still grow by
+    return static_cast<double>(emscripten_get_heap_max()) - static_cast<double>(reinterpret_cast<std::uintptr_t>(sbrk(0)));
+#endif
     double bytes = std::numeric_limits<double>::infinity();
     std::ifstream system("/proc/meminfo");
     for (std::string key, unit; system >> key;) {
