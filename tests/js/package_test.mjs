@@ -42,21 +42,21 @@ test('a ball falls by g and comes to rest on the ground', () => {
 });
 
 test('worlds of one scene have equal hashes, and others after a push', () => {
-  const scene = Scene.demo('wall', { bodies: 50 });
+  const scene = Scene.demo('pile', { bodies: 50 });
   const one = new World(scene);
   const other = new World(scene);
   one.step(20);
   other.step(20);
   assert.match(one.hash(), /^[0-9a-f]{16}$/);
   assert.equal(one.hash(), other.hash());
-  other.apply(3, { impulse: [[1, 0, 0]] });
+  other.apply(other.count('bodies') - 1, { impulse: [[1, 0, 0]] });
   other.step();
   one.step();
   assert.notEqual(one.hash(), other.hash());
 });
 
 test('a saved state goes on with the same bits', () => {
-  const world = new World(Scene.demo('wall', { bodies: 50 }));
+  const world = new World(Scene.demo('pile', { bodies: 50 }));
   world.step(10);
   const saved = world.save();
   world.step(10);
@@ -74,11 +74,11 @@ test('a saved state goes on with the same bits', () => {
 });
 
 test('errors tell kind, place and reason', () => {
-  assert.throws(() => Scene.fromJSON({ bodies: [{ shape: { sphere: { radius: -1 } } }] }), (error) => {
+  assert.throws(() => Scene.fromJSON({ bodies: [{ shape: { sphere: { radius: 'wide' } } }] }), (error) => {
     assert.ok(error instanceof ScreeError);
     assert.equal(error.kind, 'BAD_SCENE');
     assert.match(error.place, /^\/bodies\/0/);
-    return /sphere|radius/.test(error.message);
+    return /number/.test(error.message);
   });
   assert.throws(() => Scene.demo('no such demo'), /no such demo/);
   const world = new World(falling());
@@ -145,14 +145,14 @@ test('events tell of a hit', () => {
 test('joints are driven', () => {
   const scene = new Scene();
   scene.addBodies({ shape: { box: { half_extents: [0.5, 0.5, 0.5] } }, motion: 'fixed', position: [0, 3, 0] });
-  scene.addBodies({ shape: { box: { half_extents: [0.5, 0.1, 0.1] } }, position: [1, 3, 0] });
+  scene.addBodies({ shape: { box: { half_extents: [0.5, 0.1, 0.1] } }, position: [1.2, 3, 0] });
   scene.set('gravity', [0, 0, 0]);
   const world = new World(scene);
-  const joint = world.addJoint({ kind: { hinge: {} }, a: 0, b: 1 }, [0.5, 3, 0], [0, 0, 1]);
+  const joint = world.addJoint({ kind: { hinge: {} }, a: 0, b: 1 }, [0.7, 3, 0], [0, 0, 1]);
   world.setMotors(joint, { speed: 1, max_force: 1000 });
   world.step(60);
   const state = world.joints()[joint];
-  assert.ok(Math.abs(state.rates[5] - 1) < 0.05, JSON.stringify(state));
+  assert.ok(Math.abs(state.rates[state.axis] - 1) < 0.05, JSON.stringify(state));
   assert.equal(state.broken, false);
   assert.equal(world.drives(-1).length, 1);
 });
@@ -216,9 +216,10 @@ test('many scenes and worlds take no memory when they are disposed of', () => {
     scene.dispose();
   };
   for (let i = 0; i < 20; ++i) run();
-  const before = scree.Scene && new World(falling()).library.memory.buffer.byteLength;
+  const kept = new World(falling());
+  const before = kept.library.memory.buffer.byteLength;
   for (let i = 0; i < 300; ++i) run();
-  assert.equal(new World(falling()).library.memory.buffer.byteLength, before);
+  assert.equal(kept.library.memory.buffer.byteLength, before);
 });
 
 test('guide: every block of JavaScript runs', async () => {

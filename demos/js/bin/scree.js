@@ -10,4 +10,3 @@ scree.files.mkdir('/here');
 scree.files.mount(scree.files.filesystems.NODEFS, { root: process.cwd() }, '/here');
 scree.files.chdir('/here');
 process.exitCode = scree.command(process.argv.slice(2));
-if (threads > 1) process.exit();

@@ -43,5 +43,8 @@ export async function loadLibrary({ threads = 1, print, printError, folder } = {
   if (threads > 1) given.wasmMemory = new WebAssembly.Memory({ initial: 1024, maximum: 65536, shared: true });
   const { default: make } = await import(new URL(`${name}.mjs`, base).href);
   const module = await make(given);
-  return new Library(module, given.wasmMemory ?? module.asm.memory, threads);
+  // In Node the process ends without waiting for them.
+  for (const worker of module.PThread?.unusedWorkers ?? []) worker.unref?.();
+  // Without threads emscripten keeps its own views in step as memory grows.
+  return new Library(module, given.wasmMemory ?? { get buffer() { return module.HEAPU8.buffer; } }, threads);
 }

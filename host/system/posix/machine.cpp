@@ -6,8 +6,12 @@
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __EMSCRIPTEN__
+#include <emscripten/heap.h>
+#endif
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -42,6 +46,9 @@ std::string processor_name() {
 }
 
 double available_memory() {
+#ifdef __EMSCRIPTEN__  // what the module may still grow by
+    return static_cast<double>(emscripten_get_heap_max()) - static_cast<double>(reinterpret_cast<std::uintptr_t>(sbrk(0)));
+#endif
     double bytes = std::numeric_limits<double>::infinity();
     std::ifstream system("/proc/meminfo");
     for (std::string key, unit; system >> key;) {
