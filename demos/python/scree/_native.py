@@ -290,6 +290,7 @@ class World:
         self._batch = 1
         self._batch_seconds = 1.0  # that the last batch took; at first unknown
         self._stepping = False
+        self._calls = threading.RLock()  # steps begin behind a call of another thread, which is short
 
     def __del__(self, release: Any = LIBRARY.scree_world_release) -> None:
         release(getattr(self, "_handle", None))
@@ -305,23 +306,26 @@ class World:
             raise error
 
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:
-        if self._stepping:
-            raise RuntimeError("the world is in use by another thread")
-        if self._left is not None:
-            self._wait()
-        result = function(self._handle, *arguments)
-        if result:
-            raise error_of(result)
+        with self._calls:
+            if self._stepping:
+                raise RuntimeError("the world is in use by another thread")
+            if self._left is not None:
+                self._wait()
+            result = function(self._handle, *arguments)
+            if result:
+                raise error_of(result)
 
     def _array(self, kind: Any, function: Callable[..., int], *arguments: Any) -> _Array:
         found = Array()
-        self._call(function, *arguments, _byref(found))
-        return _copied(found, kind)
+        with self._calls:  # the next call may take its place
+            self._call(function, *arguments, _byref(found))
+            return _copied(found, kind)
 
     def _text(self, key: bytes) -> bytes:
         found = ctypes.c_char_p()
-        self._call(LIBRARY.scree_world_get, key, _byref(found))
-        return found.value or b"null"
+        with self._calls:
+            self._call(LIBRARY.scree_world_get, key, _byref(found))
+            return found.value or b"null"
 
     def _json(self, key: bytes) -> Any:
         return json.loads(self._text(key))
@@ -340,10 +344,11 @@ class World:
     def step(self, count: int, report: Optional[Callable[[int, int], None]]) -> None:
         if count < 0:
             raise ValueError("step: the number of steps must not be negative")
-        if self._stepping:
-            raise RuntimeError("the world is in use by another thread")
-        self._wait()
-        self._stepping = True
+        with self._calls:
+            if self._stepping:
+                raise RuntimeError("the world is in use by another thread")
+            self._wait()
+            self._stepping = True
         try:
             done, reported = 0, time.monotonic()
             while done < count:
