@@ -110,7 +110,7 @@ std::vector<Found> faces_between(const std::vector<dvec3>& points, const std::st
 // Counter-clockwise from outside, from the lowest on; `normal`: nearly that of the face.
 void sort_around(HullForm::Face& face, const std::vector<dvec3>& vertices, const dvec3& normal) {
     dvec3 middle(0);
-    std::ranges::sort(face.corners);
+    std::sort(face.corners.begin(), face.corners.end());
     for (const std::uint32_t corner : face.corners) middle += vertices[corner];
     middle /= static_cast<double>(face.corners.size());
     const dvec3 u = glm::normalize(vertices[face.corners[0]] - middle), v = glm::cross(normal, u);
@@ -196,7 +196,7 @@ HullForm hull_form(std::span<const glm::vec3> given) {
         made.distance = -1e300;
         for (const dvec3& v : form.vertices) made.distance = std::max(made.distance, glm::dot(made.normal, v));
     }
-    std::ranges::sort(form.faces, {}, &HullForm::Face::corners);
+    std::sort(form.faces.begin(), form.faces.end(), [](const auto& a, const auto& b) { return a.corners < b.corners; });
     measure(form);
     return form;
 }

@@ -3,7 +3,6 @@
 // elsewhere. Errors are at most 5 units in the last place of a double, of pow() 30. Floats are taken to double and rounded once.
 #pragma once
 
-#include <concepts>
 #include <glm/gtc/quaternion.hpp>
 
 namespace scree::portable {
@@ -24,37 +23,29 @@ double cbrt(double x);
 // Not scaled: squares above a double's range, or below it, are infinite or zero.
 double hypot(double x, double y);
 
-template <std::same_as<float> Float>
-Float sin(Float angle) {
-    return static_cast<Float>(sin(static_cast<double>(angle)));
+inline float sin(float angle) {
+    return static_cast<float>(sin(static_cast<double>(angle)));
 }
-template <std::same_as<float> Float>
-Float cos(Float angle) {
-    return static_cast<Float>(cos(static_cast<double>(angle)));
+inline float cos(float angle) {
+    return static_cast<float>(cos(static_cast<double>(angle)));
 }
-template <std::same_as<float> Float>
-Float tan(Float angle) {
-    return static_cast<Float>(tan(static_cast<double>(angle)));
+inline float tan(float angle) {
+    return static_cast<float>(tan(static_cast<double>(angle)));
 }
-template <std::same_as<float> Float>
-Float atan(Float x) {
-    return static_cast<Float>(atan(static_cast<double>(x)));
+inline float atan(float x) {
+    return static_cast<float>(atan(static_cast<double>(x)));
 }
-template <std::same_as<float> Float>
-Float atan2(Float y, Float x) {
-    return static_cast<Float>(atan2(static_cast<double>(y), static_cast<double>(x)));
+inline float atan2(float y, float x) {
+    return static_cast<float>(atan2(static_cast<double>(y), static_cast<double>(x)));
 }
-template <std::same_as<float> Float>
-Float pow(Float base, Float exponent) {
-    return static_cast<Float>(pow(static_cast<double>(base), static_cast<double>(exponent)));
+inline float pow(float base, float exponent) {
+    return static_cast<float>(pow(static_cast<double>(base), static_cast<double>(exponent)));
 }
-template <std::same_as<float> Float>
-Float cbrt(Float x) {
-    return static_cast<Float>(cbrt(static_cast<double>(x)));
+inline float cbrt(float x) {
+    return static_cast<float>(cbrt(static_cast<double>(x)));
 }
-template <std::same_as<float> Float>
-Float hypot(Float x, Float y) {
-    return static_cast<Float>(hypot(static_cast<double>(x), static_cast<double>(y)));
+inline float hypot(float x, float y) {
+    return static_cast<float>(hypot(static_cast<double>(x), static_cast<double>(y)));
 }
 
 // The rotation by `angle` about a unit axis.

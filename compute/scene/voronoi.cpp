@@ -26,7 +26,7 @@ public:
     void cut(dvec3 normal, double distance) {
         std::vector<bool> gone;
         for (const dvec3& corner : corners_) gone.push_back(glm::dot(normal, corner) - distance > touching_);
-        if (std::ranges::none_of(gone, [](bool one) { return one; })) return;
+        if (std::find(gone.begin(), gone.end(), true) == gone.end()) return;
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings;  // of edges, from the corner that stays
         const auto crossing = [&](std::uint32_t stays, std::uint32_t goes) {
             const auto [found, is_new] = crossings.try_emplace({stays, goes}, static_cast<std::uint32_t>(corners_.size()));
@@ -106,7 +106,8 @@ private:
 }  // namespace
 
 bool Region::holds(dvec3 point) const {
-    return std::ranges::all_of(planes, [&](const glm::dvec4& plane) { return glm::dot(dvec3(plane), point) < 0.999 * plane.w; });
+    return std::all_of(planes.begin(), planes.end(),
+                       [&](const glm::dvec4& plane) { return glm::dot(dvec3(plane), point) < 0.999 * plane.w; });
 }
 
 std::vector<Cell> cells_of(const Region& region, std::span<const dvec3> points) {
@@ -117,8 +118,9 @@ std::vector<Cell> cells_of(const Region& region, std::span<const dvec3> points) 
     std::vector<double> distances(points.size());
     for (const dvec3& point : points) {
         std::iota(others.begin(), others.end(), std::size_t{0});
-        std::ranges::transform(points, distances.begin(), [&](const dvec3& other) { return glm::length(other - point); });
-        std::ranges::stable_sort(others, {}, [&](std::size_t other) { return distances[other]; });
+        std::transform(points.begin(), points.end(), distances.begin(),
+                       [&](const dvec3& other) { return glm::length(other - point); });
+        std::stable_sort(others.begin(), others.end(), [&](auto one, auto other) { return distances[one] < distances[other]; });
         Polyhedron left = whole;
         for (const std::size_t other : others) {
             if (&points[other] == &point) continue;

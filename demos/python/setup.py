@@ -3,10 +3,10 @@
 pip wheel --no-build-isolation --no-deps -w dist demos/python     a wheel for any CPython from 3.9 on
 
 Needs the packages that .ci/setup lists, and no network. The wheel holds libscree and the libraries that it needs, but for the C and
-C++ libraries and the Vulkan loader, which are the machine's; its name says which glibc it needs, and pip refuses an older one. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
--DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the library from, in place of a build of its own;
-CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once; SCREE_WHEEL_PLATFORM=win_amd64, a wheel for Windows of the build that
-SCREE_BUILD_FOLDER names (tests/house/windows makes one).
+C++ libraries and the Vulkan loader, which are the machine's. Its name says which glibc it needs; pip refuses it where that is older.
+Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as -DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this
+checkout to take the library from, in place of a build of its own; CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once;
+SCREE_WHEEL_PLATFORM=win_amd64, a wheel for Windows of the build that SCREE_BUILD_FOLDER names (tests/house/windows makes one).
 """
 import os
 import re

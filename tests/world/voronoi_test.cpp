@@ -12,14 +12,18 @@ using glm::dvec3;
 using scree::Cell;
 using scree::Region;
 
+dvec3 in_cube(std::mt19937& random) {
+    const auto part = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+    const double x = part(), y = part(), z = part();
+    return {x, y, z};
+}
+
 // A ball of facets, cut off at half its height.
 Region faceted(int planes) {
     Region region{{}, dvec3(1)};
     std::mt19937 random(7);
     while (static_cast<int>(region.planes.size()) < planes) {
-        const auto part = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
-        const double x = part(), y = part(), z = part();
-        const dvec3 way(x, y, z);
+        const dvec3 way = in_cube(random);
         if (glm::length(way) < 1 && glm::length(way) > 0.1) region.planes.emplace_back(glm::normalize(way), 1);
     }
     region.planes.emplace_back(0, 1, 0, 0.5);
@@ -35,9 +39,8 @@ std::vector<dvec3> points_in(const Region& region, std::size_t count) {
     std::mt19937 random(11);
     std::vector<dvec3> points;
     while (points.size() < count) {
-        const auto part = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
-        const double x = part(), y = part(), z = part();
-        if (region.holds(dvec3(x, y, z))) points.emplace_back(x, y, z);
+        const dvec3 point = in_cube(random);
+        if (region.holds(point)) points.push_back(point);
     }
     return points;
 }
