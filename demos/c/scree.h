@@ -81,11 +81,11 @@ SCREE_API void scree_close_devices(void);
 /* ---- Memory of the caller and of the library */
 
 #ifdef __cplusplus
-#define SCREE_INIT(type)         \
-    [] {                         \
-        type made{};             \
-        made.size = sizeof made; \
-        return made;             \
+#define SCREE_INIT(type)                     \
+    [] {                                     \
+        type scree_made{};                   \
+        scree_made.size = sizeof scree_made; \
+        return scree_made;                   \
     }()
 #else
 #define SCREE_INIT(type) \
