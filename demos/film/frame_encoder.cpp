@@ -108,7 +108,13 @@ FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec
     FrameUnits units;
     const double finest = 4 * reach / most;  // bodies may leave the scene by as much again
     units.position = largest_power_below(std::clamp(radius / 512, std::max(finest, 1e-6), 1e3));
-    units.velocity = 2 * units.position / (seconds * (1 << velocity_shift));
+    units.velocity = 2 * units.position / (seconds * parts);
+    // Gravity adds a whole number of units, so that free flight needs no correction.
+    const double added = glm::length(gravity) * seconds;
+    if (const double count = std::ceil(added / units.velocity); count >= 1 && count < most) {
+        units.velocity = added / count;
+        units.position = units.velocity * seconds * parts / 2;
+    }
     for (std::size_t i = 0; i < 3; ++i)
         units.fall[i] = demos::nearest(gravity[static_cast<glm::length_t>(i)] * seconds / units.velocity);
     units.force = std::max(least_force, 1e-30);
@@ -130,7 +136,7 @@ Three Follower::expected_velocity(const FrameUnits& units) const {
 Three Follower::expected_position(const Three& new_velocity) const {
     Three made;
     for (std::size_t i = 0; i < 3; ++i)
-        made[i] = position[i] + ((velocity[i] + new_velocity[i]) >> FrameUnits::velocity_shift);
+        made[i] = position[i] + velocity[i] + new_velocity[i];
     return made;
 }
 
@@ -221,16 +227,16 @@ void FrameEncoder::tell_whole(ChunkBytes& to, std::span<const BodyMoment> bodies
             follower.advance(units_, velocity, position, {});
         }
         follower.velocity = velocity;
-        follower.position = position;
+        for (std::size_t k = 0; k < 3; ++k) follower.position[k] = FrameUnits::parts * position[k];
         follower.turn = turn;
         const SmallestThree three(bodies[i].orientation);
         follower.orientation = three.orientation();
         columns.add(0, follower.velocity);
-        columns.add(3, difference(follower.position, before));
+        columns.add(3, difference(position, before));
         columns.add(6, follower.turn);
         columns.add(9, static_cast<std::int32_t>(2 * three.largest + (follower.falls ? 1 : 0)));
         columns.add(10, three.others);
-        before = follower.position;
+        before = position;
     }
     columns.put(to);
 }
@@ -244,12 +250,17 @@ void FrameEncoder::tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodi
         const Three expected_velocity = follower.expected_velocity(units_);
         const Three velocity = kept_or_nearest(bodies[i].velocity, units_.velocity, expected_velocity);
         const Three expected_position = follower.expected_position(velocity);
-        const Three position = kept_or_nearest(bodies[i].position, units_.position, expected_position);
+        Three of_position, position;
+        for (std::size_t k = 0; k < 3; ++k) {  // told in whole units
+            const double exact_position = static_cast<double>(bodies[i].position[static_cast<glm::length_t>(k)]) / units_.position;
+            const double wrong = exact_position - expected_position[k] / static_cast<double>(FrameUnits::parts);
+            of_position[k] = kept_or_nearest(wrong, 0);
+            position[k] = expected_position[k] + FrameUnits::parts * of_position[k];
+        }
         const std::array<double, 3> exact = turn_between(follower.orientation, bodies[i].orientation);
         Three turn;
         for (std::size_t k = 0; k < 3; ++k) turn[k] = kept_or_nearest(exact[k], follower.turn[k]);
-        const Three of_velocity = difference(velocity, expected_velocity), of_position = difference(position, expected_position),
-                    of_turn = difference(turn, follower.turn);
+        const Three of_velocity = difference(velocity, expected_velocity), of_turn = difference(turn, follower.turn);
         const bool differs = of_velocity != Three{} || of_position != Three{} || of_turn != Three{};
         changed.add(differs);
         if (differs) {

@@ -17,17 +17,18 @@ namespace scree::demos {
 // What a unit of each number is. A value is told again where readers would be off by more than `slack` units.
 struct FrameUnits {
     static constexpr double slack = 0.75;
-    static constexpr int velocity_shift = 3;
+    static constexpr std::int32_t parts = 8;           // of a told unit of position, in which readers go on
     static constexpr double turn = 1.0 / 2048;         // tangent of half the angle
     static constexpr double orientation = 1.0 / 8192;  // of a quaternion's component
     static constexpr double levels_per_octave = 8;     // of forces
-    static constexpr std::int32_t most = 1 << 29;      // units of any number
+    static constexpr std::int32_t most = 1 << 26;      // units of any number
 
-    double position = 1.0 / 1024;      // m
-    double velocity = 1.0 / 128;       // m/s: half a frame at 2^-velocity_shift of it is a unit of position
-    std::array<std::int32_t, 3> fall;  // what gravity adds to a velocity from one frame to the next
+    double position = 1.0 / 1024;        // m
+    double velocity = 1.0 / 128;         // m/s: half a frame at this is a part of a unit of position
+    std::array<std::int32_t, 3> fall{};  // what gravity adds to a velocity from one frame to the next
     double force = 1e-3;               // N, the least that is not 0
 
+    double part() const { return position / parts; }
     // Units for bodies of this bounding radius, within this distance of the origin, m; frames are `seconds` apart.
     static FrameUnits of(double radius, double reach, double seconds, glm::dvec3 gravity, double force);
 
@@ -49,7 +50,7 @@ struct BodyMoment {
 // What a reader knows of a body after a frame.
 struct Follower {
     bool exists = false, asleep = false, falls = false;
-    std::array<std::int32_t, 3> velocity{}, position{}, turn{};
+    std::array<std::int32_t, 3> velocity{}, position{}, turn{};  // of position parts
     std::array<double, 4> orientation{0, 0, 0, 1};
 
     std::array<std::int32_t, 3> expected_velocity(const FrameUnits& units) const;

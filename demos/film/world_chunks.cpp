@@ -287,7 +287,7 @@ void WorldChunks::add_contacts(ChunkBytes& to, const World& world, const FrameUn
         const auto& at = followers[beside - 1].position;
         ChunkBytes* const columns[] = {&x, &y, &z};
         for (std::size_t k = 0; k < 3; ++k) {
-            const double way = static_cast<double>(point[static_cast<glm::length_t>(k)]) - at[k] * units.position;
+            const double way = static_cast<double>(point[static_cast<glm::length_t>(k)]) - at[k] * units.part();
             columns[k]->integer(static_cast<std::int32_t>(std::lround(std::clamp(way / unit, -1e9, 1e9))));
         }
         put_direction(normal_x, normal_y, contact.normal);

@@ -124,14 +124,14 @@ export class FrameDecoder {
   }
 
   readWhole(from, fresh) {
-    const { now, units, turn } = this, columns = new Columns(from, 13), { velocity, position, orientation } = now;
+    const { now, units, turn } = this, columns = new Columns(from, 13), { velocity, position, orientation } = now, { parts } = units;
     let x = 0, y = 0, z = 0;
     for (const place of fresh) {
       const at = 3 * place;
       for (let k = 0; k < 3; ++k) velocity[at + k] = columns.next(k);
-      position[at] = x += columns.next(3);
-      position[at + 1] = y += columns.next(4);
-      position[at + 2] = z += columns.next(5);
+      position[at] = parts * (x += columns.next(3));
+      position[at + 1] = parts * (y += columns.next(4));
+      position[at + 2] = parts * (z += columns.next(5));
       for (let k = 0; k < 3; ++k) turn[at + k] = columns.next(6 + k);
       const code = columns.next(9), largest = code >> 1;
       this.falls[place] = code & 1;
@@ -145,7 +145,7 @@ export class FrameDecoder {
   readChanges(from, fresh) {
     const { now, units, turn, falls } = this, { exists, velocity, position, orientation } = now;
     const changed = from.part(), columns = new Columns(from, 9);
-    const shift = units.velocity_shift, step = units.turn, [fallX, fallY, fallZ] = units.fall;
+    const { parts } = units, step = units.turn, [fallX, fallY, fallZ] = units.fall;
     const canFall = fallX !== 0 || fallY !== 0 || fallZ !== 0;
     let next = 0, bit = 0;
     for (let place = 0; place < now.count; ++place) {
@@ -169,11 +169,11 @@ export class FrameDecoder {
         ny += columns.next(1);
         nz += columns.next(2);
       }
-      position[at] += (vx + nx) >> shift;
-      position[at + 1] += (vy + ny) >> shift;
-      position[at + 2] += (vz + nz) >> shift;
+      position[at] += vx + nx;
+      position[at + 1] += vy + ny;
+      position[at + 2] += vz + nz;
       if (differs) for (let k = 0; k < 3; ++k) {
-        position[at + k] += columns.next(3 + k);
+        position[at + k] += parts * columns.next(3 + k);
         turn[at + k] += columns.next(6 + k);
       }
       falls[place] = canFall && Math.abs(nx - vx - fallX) <= 2 && Math.abs(ny - vy - fallY) <= 2 && Math.abs(nz - vz - fallZ) <= 2 ? 1 : 0;
@@ -207,7 +207,7 @@ export class FrameDecoder {
       made.b[i] = b - 1;
       const beside = this.planes?.[a - 1] ? b - 1 : a - 1;
       for (const [k, column] of [xs, ys, zs].entries())
-        made.point[3 * i + k] = (position[3 * beside + k] + 4 * column.integer()) * unit;
+        made.point[3 * i + k] = (position[3 * beside + k] + 4 * this.units.parts * column.integer()) * unit;
       let x = normalX[i] / 127.5 - 1, z = normalY[i] / 127.5 - 1;
       const y = 1 - Math.abs(x) - Math.abs(z);
       if (y < 0) [x, z] = [Math.sign(x) * (1 - Math.abs(z)), Math.sign(z) * (1 - Math.abs(x))];
