@@ -16,24 +16,24 @@ double largest_power_below(double value) {
 }
 
 // The unit nearest to a value, given in units.
-std::int32_t nearest(double value) {
+std::int32_t nearest_unit(double value) {
     constexpr double most = FrameUnits::most;
     if (!(value > -most)) return -FrameUnits::most;  // not a number, too
     return static_cast<std::int32_t>(std::lround(std::min(value, most)));
 }
 // `expected`, unless the value is too far from it.
-std::int32_t kept_or_nearest(double value, std::int32_t expected) {
-    return std::abs(value - expected) <= FrameUnits::slack ? expected : nearest(value);
+std::int32_t kept_or_nearest_unit(double value, std::int32_t expected) {
+    return std::abs(value - expected) <= FrameUnits::slack ? expected : nearest_unit(value);
 }
 
-Three nearest(glm::vec3 value, double unit) {
-    return {nearest(static_cast<double>(value.x) / unit), nearest(static_cast<double>(value.y) / unit),
-            nearest(static_cast<double>(value.z) / unit)};
+Three nearest_units(glm::vec3 value, double unit) {
+    return {nearest_unit(static_cast<double>(value.x) / unit), nearest_unit(static_cast<double>(value.y) / unit),
+            nearest_unit(static_cast<double>(value.z) / unit)};
 }
-Three kept_or_nearest(glm::vec3 value, double unit, const Three& expected) {
+Three kept_or_nearest_units(glm::vec3 value, double unit, const Three& expected) {
     Three made;
     for (std::size_t i = 0; i < 3; ++i)
-        made[i] = kept_or_nearest(static_cast<double>(value[static_cast<glm::length_t>(i)]) / unit, expected[i]);
+        made[i] = kept_or_nearest_unit(static_cast<double>(value[static_cast<glm::length_t>(i)]) / unit, expected[i]);
     return made;
 }
 
@@ -58,7 +58,7 @@ struct SmallestThree {
         const double sign = q[static_cast<int>(largest)] < 0 ? -1 : 1;
         std::size_t k = 0;
         for (std::uint32_t i = 0; i < 4; ++i)
-            if (i != largest) others[k++] = nearest(sign * static_cast<double>(q[static_cast<int>(i)]) / FrameUnits::orientation);
+            if (i != largest) others[k++] = nearest_unit(sign * static_cast<double>(q[static_cast<int>(i)]) / FrameUnits::orientation);
     }
     std::array<double, 4> orientation() const {
         const double a = others[0] * FrameUnits::orientation, b = others[1] * FrameUnits::orientation,
@@ -116,7 +116,7 @@ FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec
         units.position = units.velocity * seconds * parts / 2;
     }
     for (std::size_t i = 0; i < 3; ++i)
-        units.fall[i] = demos::nearest(gravity[static_cast<glm::length_t>(i)] * seconds / units.velocity);
+        units.fall[i] = nearest_unit(gravity[static_cast<glm::length_t>(i)] * seconds / units.velocity);
     units.force = std::max(least_force, 1e-30);
     return units;
 }
@@ -167,7 +167,7 @@ void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double le
         std::int32_t now = 0;
         if (static_cast<double>(values[i]) >= least) {  // not for what is no number
             const double at = 1 + FrameUnits::levels_per_octave * std::log2(static_cast<double>(values[i]) / least);
-            now = told > 0 ? kept_or_nearest(at, told) : nearest(at);
+            now = told > 0 ? kept_or_nearest_unit(at, told) : nearest_unit(at);
         }
         changed.add(now != told);
         if (now != told) levels.integer(now - told);
@@ -216,14 +216,14 @@ void FrameEncoder::tell_whole(ChunkBytes& to, std::span<const BodyMoment> bodies
     Three before{};
     for (const std::uint32_t i : which) {
         Follower& follower = followers_[i];
-        const Three velocity = nearest(bodies[i].velocity, units_.velocity),
-                    position = nearest(bodies[i].position, units_.position);
+        const Three velocity = nearest_units(bodies[i].velocity, units_.velocity),
+                    position = nearest_units(bodies[i].position, units_.position);
         Three turn{};
         follower.falls = false;
         if (i < known.size() && known[i].exists) {  // the next frame is expected to go on like the last
             follower.velocity = known[i].velocity;
             const std::array<double, 3> exact = turn_between(known[i].orientation, bodies[i].orientation);
-            turn = {nearest(exact[0]), nearest(exact[1]), nearest(exact[2])};
+            turn = {nearest_unit(exact[0]), nearest_unit(exact[1]), nearest_unit(exact[2])};
             follower.advance(units_, velocity, position, {});
         }
         follower.velocity = velocity;
@@ -248,18 +248,18 @@ void FrameEncoder::tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodi
         Follower& follower = followers_[i];
         if (!follower.exists || told[i]) continue;
         const Three expected_velocity = follower.expected_velocity(units_);
-        const Three velocity = kept_or_nearest(bodies[i].velocity, units_.velocity, expected_velocity);
+        const Three velocity = kept_or_nearest_units(bodies[i].velocity, units_.velocity, expected_velocity);
         const Three expected_position = follower.expected_position(velocity);
         Three of_position, position;
         for (std::size_t k = 0; k < 3; ++k) {  // told in whole units
             const double exact_position = static_cast<double>(bodies[i].position[static_cast<glm::length_t>(k)]) / units_.position;
             const double wrong = exact_position - expected_position[k] / static_cast<double>(FrameUnits::parts);
-            of_position[k] = kept_or_nearest(wrong, 0);
+            of_position[k] = kept_or_nearest_unit(wrong, 0);
             position[k] = expected_position[k] + FrameUnits::parts * of_position[k];
         }
         const std::array<double, 3> exact = turn_between(follower.orientation, bodies[i].orientation);
         Three turn;
-        for (std::size_t k = 0; k < 3; ++k) turn[k] = kept_or_nearest(exact[k], follower.turn[k]);
+        for (std::size_t k = 0; k < 3; ++k) turn[k] = kept_or_nearest_unit(exact[k], follower.turn[k]);
         const Three of_velocity = difference(velocity, expected_velocity), of_turn = difference(turn, follower.turn);
         const bool differs = of_velocity != Three{} || of_position != Three{} || of_turn != Three{};
         changed.add(differs);

@@ -111,9 +111,9 @@ json colors_of(const PageOptions& options) {
 }
 
 // The size of most moving bodies or below, and how far from the origin there are any.
-struct Extent {
+struct PageExtent {
     double radius = 0.5, reach = 1, least_weight = 1;
-    Extent(const World& world, glm::vec3 low, glm::vec3 high) {
+    PageExtent(const World& world, glm::vec3 low, glm::vec3 high) {
         const Scene& scene = world.scene();
         const double gravity = std::max(static_cast<double>(glm::length(scene.gravity)), 1.0);
         std::vector<double> radii, masses;
@@ -165,7 +165,7 @@ struct PageRecording::Impl {
           chunks(options.shown) {}
 
     static FrameUnits units_of(const World& world, const PageOptions& options, int every) {
-        const Extent extent(world, options.low, options.high);
+        const PageExtent extent(world, options.low, options.high);
         return FrameUnits::of(extent.radius, extent.reach, every / static_cast<double>(world.settings().rate),
                               glm::dvec3(world.scene().gravity), extent.least_weight / 1024);
     }

@@ -4,7 +4,8 @@ import * as geometry from './geometry.js';
 import { add, axesOf, clamp, dot, length, rotated, scaled, sub, unit } from './math.js';
 import { sources } from './shaders.js';
 
-const STRIDE = 40;  // bytes of an instance: place, tint, turn, size, body
+const WORDS = 12, ROW = 1024;  // words of a body in the texture: place, tint, turn, size, number; bodies of a row
+const MOST_CORNERS = 2048;     // of an instance
 
 // Light of the skies of pictures (host/canvas/frame.cpp): sun, zenith, horizon, bounce, ambient, glow.
 export const SKIES = {
@@ -43,7 +44,7 @@ export class Renderer {
     this.drawn = [];        // geometry by kind and level
     this.sky = 'day';
     this.sun = null;        // the scene's own direction
-    this.instances = { buffer: gl.createBuffer(), bytes: new ArrayBuffer(0), capacity: 0 };
+    this.instances = { texture: null, rows: 0 };
     this.lines = { buffer: gl.createBuffer(), array: gl.createVertexArray(), data: new Float32Array(0), count: 0 };
     this.empty = gl.createVertexArray();
     this.setUpLines();
@@ -100,23 +101,28 @@ export class Renderer {
   }
 
   addGeometry(shader, mesh, culls = true) {
-    const { gl } = this, array = gl.createVertexArray();
+    const { gl } = this, array = gl.createVertexArray(), count = mesh.corners.length / 8;
+    const together = Math.max(1, Math.min(256, Math.floor(MOST_CORNERS / count)));
+    const corners = new Float32Array(9 * count * together), indices = new Uint32Array(mesh.indices.length * together);
+    for (let k = 0, to = 0; k < together; ++k) {
+      for (let i = 0; i < count; ++i, to += 9) {
+        corners.set(mesh.corners.subarray(8 * i, 8 * i + 8), to);
+        corners[to + 8] = k;
+      }
+      for (let i = 0; i < mesh.indices.length; ++i) indices[k * mesh.indices.length + i] = k * count + mesh.indices[i];
+    }
     gl.bindVertexArray(array);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, mesh.corners, gl.STATIC_DRAW);
-    for (const [place, size, offset] of [[0, 3, 0], [1, 3, 12], [2, 2, 24]]) {
+    gl.bufferData(gl.ARRAY_BUFFER, corners, gl.STATIC_DRAW);
+    for (const [place, offset] of [[0, 0], [1, 12], [2, 24]]) {
       gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, size, gl.FLOAT, false, 32, offset);
+      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 36, offset);
     }
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    const few = mesh.corners.length / 8 < 65536;
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, few ? Uint16Array.from(mesh.indices) : mesh.indices, gl.STATIC_DRAW);
-    for (let i = 3; i < 8; ++i) {
-      gl.enableVertexAttribArray(i);
-      gl.vertexAttribDivisor(i, 1);
-    }
+    const few = count * together < 65536;
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, few ? Uint16Array.from(indices) : indices, gl.STATIC_DRAW);
     gl.bindVertexArray(null);
-    this.drawn.push({ shader, array, indices: mesh.indices.length, type: few ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT, culls,
+    this.drawn.push({ shader, array, indices: mesh.indices.length, together, type: few ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT, culls,
       seen: 0, total: 0, first: 0 });
     return this.drawn.length - 1;
   }
@@ -165,15 +171,20 @@ export class Renderer {
     this.parts = parts;
   }
 
-  // Bytes for instances, kept from frame to frame.
+  // Words for bodies, kept from frame to frame.
   room(count) {
-    const { instances } = this;
-    if (instances.capacity < count) {
-      instances.capacity = Math.ceil(count * 1.25) + 64;
-      instances.bytes = new ArrayBuffer(instances.capacity * STRIDE);
-      instances.floats = new Float32Array(instances.bytes);
-      instances.words = new Uint32Array(instances.bytes);
-      instances.shorts = new Int16Array(instances.bytes);
+    const { gl, instances } = this, rows = Math.max(1, Math.ceil(count / ROW));
+    if (instances.rows < rows) {
+      instances.rows = Math.ceil(rows * 1.25);
+      if (instances.texture) gl.deleteTexture(instances.texture);
+      instances.texture = gl.createTexture();
+      gl.activeTexture(gl.TEXTURE2);
+      gl.bindTexture(gl.TEXTURE_2D, instances.texture);
+      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32UI, 3 * ROW, instances.rows);
+      for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+      instances.words = new Uint32Array(instances.rows * ROW * WORDS);
+      instances.floats = new Float32Array(instances.words.buffer);
+      instances.shorts = new Int16Array(instances.words.buffer);
     }
     return instances;
   }
@@ -226,10 +237,10 @@ export class Renderer {
       each.nextUnseen = first + each.seen;
       first += each.total;
     }
-    const { floats, words, shorts, bytes, buffer } = this.room(total), { size } = parts, { color } = pose;
+    const { floats, words, shorts, texture } = this.room(total), { size } = parts, { color } = pose;
     for (let i = 0; i < parts.count; ++i) {
       if (kind[i] < 0) continue;
-      const to = drawn[kind[i]], at = (seen[i] ? to.next++ : to.nextUnseen++) * (STRIDE / 4), b = body[i];
+      const to = drawn[kind[i]], at = (seen[i] ? to.next++ : to.nextUnseen++) * WORDS, b = body[i];
       floats[at] = place[3 * i];
       floats[at + 1] = place[3 * i + 1];
       floats[at + 2] = place[3 * i + 2];
@@ -251,37 +262,38 @@ export class Renderer {
       floats[at + 8] = ball || size[3 * i + 2];
       words[at + 9] = b + 1;
     }
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(bytes, 0, total * STRIDE), gl.STREAM_DRAW);
+    gl.activeTexture(gl.TEXTURE2);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    const rows = Math.ceil(total / ROW);
+    if (rows > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 3 * ROW, rows, gl.RGBA_INTEGER, gl.UNSIGNED_INT, words);
+    gl.activeTexture(gl.TEXTURE0);
     this.total = total;
   }
 
-  point(each, first) {
-    const { gl } = this, offset = first * STRIDE;
-    gl.bindVertexArray(each.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.instances.buffer);
-    gl.vertexAttribPointer(3, 3, gl.FLOAT, false, STRIDE, offset);
-    gl.vertexAttribPointer(4, 4, gl.UNSIGNED_BYTE, true, STRIDE, offset + 12);
-    gl.vertexAttribPointer(5, 4, gl.SHORT, true, STRIDE, offset + 16);
-    gl.vertexAttribPointer(6, 3, gl.FLOAT, false, STRIDE, offset + 24);
-    gl.vertexAttribIPointer(7, 1, gl.UNSIGNED_INT, STRIDE, offset + 36);
-  }
   // Draws bodies: all of them, or those that are seen.
   drawBodies(pass, uniforms, seenAlone) {
     const { gl } = this;
-    let last = null;
+    let last = null, program = null;
     for (const each of this.drawn) {
       const count = seenAlone ? each.seen : each.total;
       if (count === 0) continue;
       if (last !== each.shader) {
-        this.set(this.program(`${each.shader} ${pass}`), uniforms);
+        program = this.program(`${each.shader} ${pass}`);
+        this.set(program, uniforms);
         last = each.shader;
       }
       if (each.culls) gl.enable(gl.CULL_FACE); else gl.disable(gl.CULL_FACE);
-      this.point(each, each.first);
-      gl.drawElementsInstanced(gl.TRIANGLES, each.indices, each.type, 0, count);
+      this.drawSome(program, each, each.first, count);
     }
     gl.disable(gl.CULL_FACE);
+  }
+
+  drawSome(program, each, first, count) {
+    const { gl } = this, { together } = each;
+    gl.uniform1i(program.places.bodies, 2);
+    gl.uniform3i(program.places.batch, first, count, together);
+    gl.bindVertexArray(each.array);
+    gl.drawElementsInstanced(gl.TRIANGLES, each.indices * Math.min(together, count), each.type, 0, Math.ceil(count / together));
   }
 
   set(program, uniforms) {
@@ -456,18 +468,18 @@ export class Renderer {
 
   // Instances of a body: [[geometry, index]].
   instancesOf(place) {
-    const found = [], { words } = this.instances, step = STRIDE / 4;
+    const found = [], { words } = this.instances;
     for (const each of this.drawn)
-      for (let i = each.first; i < each.first + each.total; ++i) if (words[i * step + 9] === place + 1) found.push([each, i]);
+      for (let i = each.first; i < each.first + each.total; ++i) if (words[i * WORDS + 9] === place + 1) found.push([each, i]);
     return found;
   }
   drawOutline(place, uniforms, accent) {
     const { gl } = this, instances = this.instancesOf(place);
     const drawAll = (inflated) => {
       for (const [each, index] of instances) {
-        this.set(this.program(`${each.shader} outline`), { ...uniforms, inflated, paint: accent });
-        this.point(each, index);
-        gl.drawElementsInstanced(gl.TRIANGLES, each.indices, each.type, 0, 1);
+        const program = this.program(`${each.shader} outline`);
+        this.set(program, { ...uniforms, inflated, paint: accent });
+        this.drawSome(program, each, index, 1);
       }
     };
     gl.enable(gl.STENCIL_TEST);

@@ -114,17 +114,31 @@ float seam_at(float edge, float width, float thinnest) {
 }
 `;
 
+// Instances hold several bodies, for starting one costs software more than drawing a small body. What bodies are is in a texture.
 const BODY_IN = `
 layout(location = 0) in vec3 corner;
 layout(location = 1) in vec3 corner_normal;
-layout(location = 2) in vec2 corner_edge;
-layout(location = 3) in vec3 place;   // from the eye, m
-layout(location = 4) in vec4 tint;    // square roots of linear red, green, blue; place on the scale
-layout(location = 5) in vec4 turn_in;
-layout(location = 6) in vec3 size;
-layout(location = 7) in uint body;
-uniform float inflated;               // pixels
-uniform vec3 light_view;              // of maps: direction of the light; 0: seen from the eye
+layout(location = 2) in vec3 corner_edge;  // z: which body of the instance
+uniform highp usampler2D bodies;           // three texels each, 1024 a row
+uniform ivec3 batch;                       // the first body of the draw, their number, bodies of an instance
+uniform float inflated;                    // pixels
+uniform vec3 light_view;                   // of maps: direction of the light; 0: seen from the eye
+vec3 place, size;                          // from the eye, m
+vec4 tint, turn_in;                        // square roots of linear red, green, blue; place on the scale
+uint body;
+bool fetch_body() {
+    int which = gl_InstanceID * batch.z + int(corner_edge.z);
+    if (which >= batch.y) return false;
+    which += batch.x;
+    ivec2 at = ivec2(3 * (which & 1023), which >> 10);
+    uvec4 a = texelFetch(bodies, at, 0), b = texelFetch(bodies, at + ivec2(1, 0), 0), c = texelFetch(bodies, at + ivec2(2, 0), 0);
+    place = uintBitsToFloat(a.xyz);
+    tint = vec4((uvec4(a.w) >> uvec4(0, 8, 16, 24)) & 255u) / 255.0;
+    turn_in = vec4(unpackSnorm2x16(b.x), unpackSnorm2x16(b.y));
+    size = uintBitsToFloat(uvec3(b.zw, c.x));
+    body = c.y;
+    return true;
+}
 `;
 
 // Per kind of shape: the corner and its normal in the body's frame.
@@ -159,6 +173,13 @@ flat out uint id;
 out vec2 edge;
 ${SHAPES[shape]}
 void main() {
+    own = normal = point = vec3(0.0);
+    extent = vec3(1.0);
+    turn = color = vec4(0.0);
+    id = 0u;
+    edge = vec2(0.0);
+    gl_Position = vec4(0, 0, -2, 1);
+    if (!fetch_body()) return;
     vec4 q = normalize(turn_in);
     shape(q, own, normal);
     point = place + turned(q, own);
@@ -168,7 +189,7 @@ void main() {
     turn = q;
     color = vec4(tint.rgb * tint.rgb, tint.a);
     id = body;
-    edge = corner_edge;
+    edge = corner_edge.xy;
 }`;
 
 const BODY_OUT = `${HEAD}${LIGHT}
