@@ -33,6 +33,14 @@ export function ball(around, rings, caps = false) {
   return finished(mesh);
 }
 
+// A ball of few pixels, as large as one of its outline.
+export function octahedron() {
+  const mesh = made(), at = (x, y, z) => put(mesh, [1.15 * x, 1.15 * y, 1.15 * z], [x, y, z]);
+  const [left, right, low, high, back, front] = [at(-1, 0, 0), at(1, 0, 0), at(0, -1, 0), at(0, 1, 0), at(0, 0, -1), at(0, 0, 1)];
+  for (const [a, b] of [[front, right], [right, back], [back, left], [left, front]]) mesh.indices.push(high, a, b, low, b, a);
+  return finished(mesh);
+}
+
 // The corners of a box that its near faces need; which, the shader finds (shaders/render/cube.h).
 export function nearBox() {
   const mesh = made();

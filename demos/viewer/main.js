@@ -184,10 +184,11 @@ class Player {
   govern(now) {
     const pace = this.lastDrawn ? now - this.lastDrawn : 0;
     this.lastDrawn = now;
-    if (!this.playing || this.quality !== 'auto' || pace <= 0 || pace > 2000) return;
+    if (!this.playing || this.quality !== 'auto' || pace <= 0 || pace > 5000) return;
     this.paces.push(pace);
-    if (this.paces.length < 16) return;
-    const middle = this.paces.sort((a, b) => a - b)[8];
+    const enough = pace > 150 ? 3 : 16;
+    if (this.paces.length < enough) return;
+    const middle = this.paces.sort((a, b) => a - b)[this.paces.length >> 1];
     this.paces = [];
     if (middle > 45 && this.renderer.quality < WORST_QUALITY) ++this.renderer.quality;
   }

@@ -16,12 +16,14 @@ export const SKIES = {
   night: [[0.30, 0.36, 0.50], [0.008, 0.012, 0.030], [0.030, 0.040, 0.075], [0.05, 0.05, 0.06], [0.13, 0.15, 0.21], 0.25, [-0.52, 0.74, 0.43]],
 };
 
-// Of falling quality: pixels of the screen a pixel, texels of the maps, whether the sky is occluded.
+// Of falling quality: most pixels to one of the screen's units, texels of the maps (0: none), and how many of a body's pixels count
+// for its level of detail.
 const QUALITIES = [
-  { ratio: 2, sun: 2048, sky: 1024, occlusion: true },
-  { ratio: 1, sun: 2048, sky: 1024, occlusion: true },
-  { ratio: 1, sun: 1024, sky: 512, occlusion: false },
-  { ratio: 0.6, sun: 512, sky: 0, occlusion: false },
+  { ratio: 2, sun: 2048, sky: 1024, detail: 1 },
+  { ratio: 1, sun: 2048, sky: 1024, detail: 1 },
+  { ratio: 1, sun: 1024, sky: 0, detail: 0.6 },
+  { ratio: 0.6, sun: 512, sky: 0, detail: 0.4 },
+  { ratio: 0.4, sun: 0, sky: 0, detail: 0.3 },
 ];
 export const WORST_QUALITY = QUALITIES.length - 1;
 
@@ -38,7 +40,7 @@ export class Renderer {
     const gl = canvas.getContext('webgl2', { antialias: !software, stencil: true, alpha: false, powerPreference: 'high-performance' });
     if (!gl) throw new Error('this browser draws no WebGL 2');
     this.gl = gl;
-    this.quality = software ? 2 : 0;
+    this.quality = software ? 3 : 0;
     this.programs = {};
     for (const [name, [vertex, fragment]] of Object.entries(sources())) this.programs[name] = { name, vertex, fragment };
     this.drawn = [];        // geometry by kind and level
@@ -130,9 +132,9 @@ export class Renderer {
   // Levels of detail by radius in pixels, finest first.
   makeShapes() {
     const levels = (shader, meshes) => meshes.map(([least, mesh]) => [least, this.addGeometry(shader, mesh)]);
-    const tiny = geometry.ball(6, 4);
+    const tiny = geometry.octahedron();
     this.levels = [];
-    this.levels[SPHERE] = levels('ball', [[60, geometry.ball(48, 24)], [16, geometry.ball(24, 12)], [5, geometry.ball(12, 6)], [0, tiny]]);
+    this.levels[SPHERE] = levels('ball', [[60, geometry.ball(48, 24)], [16, geometry.ball(24, 12)], [6, geometry.ball(12, 6)], [2, geometry.ball(8, 4)], [0, tiny]]);
     this.levels[BOX] = [[0, this.addGeometry('box', geometry.nearBox(), false)]];
     this.levels[CAPSULE] = levels('capsule', [[40, geometry.ball(32, 16, true)], [10, geometry.ball(16, 8, true)], [0, geometry.ball(8, 4, true)]]);
     this.levels[CYLINDER] = levels('solid', [[20, geometry.cylinder(32)], [5, geometry.cylinder(16)], [0, geometry.cylinder(8)]]);
@@ -195,7 +197,8 @@ export class Renderer {
     const { back, sides } = view, fx = -back[0], fy = -back[1], fz = -back[2];
     for (const each of drawn) each.seen = each.total = each.unseen = 0;
     const { place, kind, seen, body, mesh, radius, moved } = parts, { position, orientation, exists } = pose;
-    this.tiny = this.levels[SPHERE][3][1];
+    this.tiny = this.levels[SPHERE][4][1];
+    const { detail } = QUALITIES[this.quality], width = view.pixel / detail;
     let total = 0;
     for (let i = 0; i < parts.count; ++i) {
       const b = body[i];
@@ -220,7 +223,7 @@ export class Renderer {
         const [n, w] = sides[k];
         visible = n[0] * x + n[1] * y + n[2] * z + w > -r;
       }
-      const pixels = r / (view.pixel * (parallel ? 1 : Math.max(ahead - r, 1e-3)));
+      const pixels = r / (width * (parallel ? 1 : Math.max(ahead - r, 1e-3)));
       const levels = this.levels[mesh[i]];
       let level = 0;
       while (level + 1 < levels.length && pixels < levels[level][0]) ++level;
@@ -412,15 +415,16 @@ export class Renderer {
     const sun = unit(this.sky === this.ownSky && this.sun ? this.sun : sky[6]);
     const [low, high] = this.shadowBox(camera);
     const sunBox = this.lightBox(sun, low, high), skyBox = this.lightBox([0, 1, 0], low, high);
-    this.drawMap('sun', quality.sun, sunBox, sun, true);
-    if (quality.occlusion) this.drawMap('sky', quality.sky, skyBox, [0, 1, 0], false); else this.map('sky', 4, false);
-    const sunTexel = Math.max(sunBox.size[0], sunBox.size[1]) / quality.sun;
+    if (quality.sun) this.drawMap('sun', quality.sun, sunBox, sun, true); else this.map('sun', 4, true);
+    if (quality.sky) this.drawMap('sky', quality.sky, skyBox, [0, 1, 0], false); else this.map('sky', 4, false);
+    const sunTexel = Math.max(sunBox.size[0], sunBox.size[1]) / (quality.sun || 1);
     const skyTexel = Math.max(skyBox.size[0], skyBox.size[1]) / (quality.sky || 1);
     const sceneSize = length(sub(scene.head.high, scene.head.low));
     const uniforms = {
       ...this.viewUniforms(camera, view), light_view: [0, 0, 0], inflated: 0,
       sun_map: this.lightMatrix(sunBox, false), sky_map: this.lightMatrix(skyBox, false),
-      maps: [sunTexel, skyTexel, 1 / quality.sun, 1 / (quality.sky || 1)], depths: [skyBox.size[2], 10 * skyTexel, 1, quality.occlusion ? 1 : 0],
+      maps: [sunTexel, skyTexel, 1 / (quality.sun || 1), 1 / (quality.sky || 1)],
+      depths: [skyBox.size[2], 10 * skyTexel, quality.sun ? 1 : 0, quality.sky ? 1 : 0],
       toward_sun: sun, sun_light: sky[0], zenith: [...sky[1], sky[5]], horizon: sky[2], bounce: sky[3], ambient: sky[4],
       haze: Math.max(3.5 * camera.distance, 1.75 * sceneSize), sun_depths: 0, sky_depths: 1,
     };

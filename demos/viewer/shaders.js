@@ -165,7 +165,7 @@ const SHAPES = {
   }`,
 };
 
-const BODY_VERTEX = (shape) => `${HEAD}${BODY_IN}
+const BODY_VERTEX = (shape, wants = '') => wants ? LEAN_VERTEX(shape, wants) : `${HEAD}${BODY_IN}
 out vec3 point, own, normal;
 flat out vec3 extent;
 flat out vec4 turn, color;
@@ -183,13 +183,29 @@ void main() {
     vec4 q = normalize(turn_in);
     shape(q, own, normal);
     point = place + turned(q, own);
-    if (inflated > 0.0) point += turned(q, normal) * (inflated * pixel_at(point));
     gl_Position = view_projection * vec4(point, 1.0);
     extent = size;
     turn = q;
     color = vec4(tint.rgb * tint.rgb, tint.a);
     id = body;
     edge = corner_edge.xy;
+}`;
+
+// For depths alone, for numbers of bodies, and for outlines.
+const LEAN_VERTEX = (shape, wants) => `${HEAD}${BODY_IN}
+${wants === 'id' ? 'flat out uint id;' : ''}
+${SHAPES[shape]}
+void main() {
+    gl_Position = vec4(0, 0, -2, 1);
+    ${wants === 'id' ? 'id = 0u;' : ''}
+    if (!fetch_body()) return;
+    vec4 q = normalize(turn_in);
+    vec3 own, normal;
+    shape(q, own, normal);
+    vec3 point = place + turned(q, own);
+    ${wants === 'outline' ? 'point += turned(q, normal) * (inflated * pixel_at(point));' : ''}
+    gl_Position = view_projection * vec4(point, 1.0);
+    ${wants === 'id' ? 'id = body;' : ''}
 }`;
 
 const BODY_OUT = `${HEAD}${LIGHT}
@@ -382,9 +398,9 @@ export function sources() {
   };
   for (const kind of KINDS) {
     all[`${kind} color`] = [BODY_VERTEX(kind), BODY_FRAGMENTS[kind]];
-    all[`${kind} depth`] = [BODY_VERTEX(kind), NOTHING];
-    all[`${kind} id`] = [BODY_VERTEX(kind), ID];
-    all[`${kind} outline`] = [BODY_VERTEX(kind), OUTLINE];
+    all[`${kind} depth`] = [BODY_VERTEX(kind, 'depth'), NOTHING];
+    all[`${kind} id`] = [BODY_VERTEX(kind, 'id'), ID];
+    all[`${kind} outline`] = [BODY_VERTEX(kind, 'outline'), OUTLINE];
   }
   return all;
 }
