@@ -58,7 +58,8 @@ struct SmallestThree {
         const double sign = q[static_cast<int>(largest)] < 0 ? -1 : 1;
         std::size_t k = 0;
         for (std::uint32_t i = 0; i < 4; ++i)
-            if (i != largest) others[k++] = nearest_unit(sign * static_cast<double>(q[static_cast<int>(i)]) / FrameUnits::orientation);
+            if (i != largest)
+                others[k++] = nearest_unit(sign * static_cast<double>(q[static_cast<int>(i)]) / FrameUnits::orientation);
     }
     std::array<double, 4> orientation() const {
         const double a = others[0] * FrameUnits::orientation, b = others[1] * FrameUnits::orientation,
@@ -135,15 +136,13 @@ Three Follower::expected_velocity(const FrameUnits& units) const {
 
 Three Follower::expected_position(const Three& new_velocity) const {
     Three made;
-    for (std::size_t i = 0; i < 3; ++i)
-        made[i] = position[i] + velocity[i] + new_velocity[i];
+    for (std::size_t i = 0; i < 3; ++i) made[i] = position[i] + velocity[i] + new_velocity[i];
     return made;
 }
 
 void Follower::advance(const FrameUnits& units, const Three& new_velocity, const Three& new_position, const Three& new_turn) {
     bool falling = units.fall != Three{};
-    for (std::size_t i = 0; i < 3; ++i)
-        falling = falling && std::abs(new_velocity[i] - velocity[i] - units.fall[i]) <= 2;
+    for (std::size_t i = 0; i < 3; ++i) falling = falling && std::abs(new_velocity[i] - velocity[i] - units.fall[i]) <= 2;
     falls = falling;
     velocity = new_velocity;
     position = new_position;
@@ -252,7 +251,8 @@ void FrameEncoder::tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodi
         const Three expected_position = follower.expected_position(velocity);
         Three of_position, position;
         for (std::size_t k = 0; k < 3; ++k) {  // told in whole units
-            const double exact_position = static_cast<double>(bodies[i].position[static_cast<glm::length_t>(k)]) / units_.position;
+            const double exact_position =
+                static_cast<double>(bodies[i].position[static_cast<glm::length_t>(k)]) / units_.position;
             const double wrong = exact_position - expected_position[k] / static_cast<double>(FrameUnits::parts);
             of_position[k] = kept_or_nearest_unit(wrong, 0);
             position[k] = expected_position[k] + FrameUnits::parts * of_position[k];

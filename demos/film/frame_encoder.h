@@ -26,7 +26,7 @@ struct FrameUnits {
     double position = 1.0 / 1024;        // m
     double velocity = 1.0 / 128;         // m/s: half a frame at this is a part of a unit of position
     std::array<std::int32_t, 3> fall{};  // what gravity adds to a velocity from one frame to the next
-    double force = 1e-3;               // N, the least that is not 0
+    double force = 1e-3;                 // N, the least that is not 0
 
     double part() const { return position / parts; }
     // Units for bodies of this bounding radius, within this distance of the origin, m; frames are `seconds` apart.

@@ -29,10 +29,10 @@ struct PageOptions {
     std::vector<std::pair<host::ColorBy, std::pair<float, float>>> ranges{};  // of other quantities that the page offers
     PictureStyle style{};                                                     // its light and what it shows
     host::vec3 toward_sun{-0.52f, 0.74f, 0.43f};
-    host::vec3 low{-5, 0, -5}, high{5, 5, 5};  // corners of the action, m
+    host::vec3 low{-5, 0, -5}, high{5, 5, 5};              // corners of the action, m
     std::function<host::Camera(double seconds)> camera{};  // called with rising times; none: one that sees low to high
-    bool events = true;    // hits and breaks; asks the world for events, which may cost time
-    bool contacts = true;  // every point that touches
+    bool events = true;                                    // hits and breaks; asks the world for events, which may cost time
+    bool contacts = true;                                  // every point that touches
     CopiesShown shown{};
 };
 

@@ -142,8 +142,7 @@ ChunkBytes WorldChunks::described(std::string& block, const World& world, std::s
         for (glm::length_t k = 0; k < 3; ++k)
             to.u8(static_cast<std::uint32_t>(std::lround(255 * std::clamp((*color)[k], 0.0f, 1.0f))));
     to.f32(properties.inverse_mass > 0 ? 1 / properties.inverse_mass : 0);
-    for (glm::length_t k = 0; k < 3; ++k)
-        to.f32(properties.inverse_inertia[k] > 0 ? 1 / properties.inverse_inertia[k] : 0);
+    for (glm::length_t k = 0; k < 3; ++k) to.f32(properties.inverse_inertia[k] > 0 ? 1 / properties.inverse_inertia[k] : 0);
     to.text(shape_name(body.shape));
     ChunkBytes parts;
     std::size_t count = 0;

@@ -102,7 +102,7 @@ export class Controls {
       const box = element(`show-${name}`);
       box.checked = player.shows[name];
       box.disabled = (name === 'contacts' && !head.has.contacts) || (name === 'joints' && scene.joints.length === 0) || (name === 'hits' && !head.has.events);
-      if (box.disabled && name === 'contacts') box.parentElement.append(' (not recorded: --show contacts)');
+      if (box.disabled && name === 'contacts') box.parentElement.append(' (not recorded: run with \u2011\u2011show contacts)');
       box.addEventListener('change', () => player.show(name, box.checked));
     }
     const find = element('find'), names = element('names'), known = new Set();

@@ -98,8 +98,7 @@ private:
             body.falls = (code & 1) != 0;
             std::array<double, 3> given{};
             for (std::size_t k = 0; k < 3; ++k) given[k] = columns[10 + k].integer() * FrameUnits::orientation;
-            const double rest =
-                std::sqrt(std::max(0.0, 1 - ((given[0] * given[0] + given[1] * given[1]) + given[2] * given[2])));
+            const double rest = std::sqrt(std::max(0.0, 1 - ((given[0] * given[0] + given[1] * given[1]) + given[2] * given[2])));
             std::size_t next = 0;
             for (std::size_t k = 0; k < 4; ++k) body.q[k] = static_cast<std::int32_t>(k) == code >> 1 ? rest : given[next++];
         }
@@ -142,7 +141,8 @@ struct Errors {
         for (int k = 0; k < 3; ++k) {
             const auto i = static_cast<std::size_t>(k);
             position = std::max(position, std::abs(double{body.position[k]} - got.p[i] * units.part()) / units.position_error());
-            velocity = std::max(velocity, std::abs(double{body.velocity[k]} - got.v[i] * units.velocity) / units.velocity_error());
+            velocity =
+                std::max(velocity, std::abs(double{body.velocity[k]} - got.v[i] * units.velocity) / units.velocity_error());
         }
         for (int k = 0; k < 4; ++k) dot += double{body.orientation[k]} * got.q[static_cast<std::size_t>(k)];
         double away = 0;  // the chord of half the angle
@@ -151,7 +151,8 @@ struct Errors {
         angle = std::max(angle, 4 * std::asin(std::min(1.0, std::sqrt(away) / 2)) / FrameUnits::angle_error());
         if (double{body.force} >= units.force) {
             const double told = units.force * std::exp2((got.force - 1) / FrameUnits::levels_per_octave);
-            force = std::max(force, std::abs(std::log2(told / double{body.force})) * FrameUnits::levels_per_octave / FrameUnits::slack);
+            force = std::max(force,
+                             std::abs(std::log2(told / double{body.force})) * FrameUnits::levels_per_octave / FrameUnits::slack);
         } else {
             CHECK(got.force == 0);
         }

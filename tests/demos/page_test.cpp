@@ -25,8 +25,7 @@ std::string from_base64(std::string_view text) {
     std::uint32_t word = 0;
     int bits = 0;
     for (const char c : text) {
-        const std::size_t digit =
-            std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+        const std::size_t digit = std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
         if (digit == std::string_view::npos) break;
         word = word << 6 | static_cast<std::uint32_t>(digit);
         bits += 6;
@@ -68,7 +67,8 @@ std::vector<Chunk> chunks_of(const std::string& page) {
         for (std::size_t from = 0; from < block.size();) {
             std::uint32_t size = 0;
             std::memcpy(&size, &block.at(from + 4), sizeof size);
-            chunks.push_back({page.substr(kind, page.find('"', kind) - kind), block.substr(from, 4), block.substr(from + 8, size)});
+            chunks.push_back(
+                {page.substr(kind, page.find('"', kind) - kind), block.substr(from, 4), block.substr(from + 8, size)});
             from += 8 + size;
         }
     }
@@ -159,7 +159,8 @@ TEST_CASE("recordings: events and frames change no bit of a run, and an unfinish
     if (!PageRecording::is_possible()) return;
     const TemporaryFolder place;
     Scene scene = with_ground();
-    for (int i = 0; i < 20; ++i) scene.bodies.push_back(box_at({0.1f * static_cast<float>(i % 3), 1.0f + 1.2f * static_cast<float>(i), 0}, ""));
+    for (int i = 0; i < 20; ++i)
+        scene.bodies.push_back(box_at({0.1f * static_cast<float>(i % 3), 1.0f + 1.2f * static_cast<float>(i), 0}, ""));
     World alone(scene), watched(scene);
     {
         PageRecording page(place / "run.html", watched, {.title = "run"});

@@ -36,8 +36,8 @@ TEST_CASE("program: a page is written beside other outputs, and changes no bit")
     if (is_without_viewer(place)) return;
     const std::string at = place.path().string();
     const Outcome alone = run_scree(brief + "--steps 60 --report -");
-    const Outcome run = run_scree(brief + "--steps 60 --report - --html '" + at + "/a.html' --frames '" + at + "/f' --size 64x48 --trajectory '" +
-                                  at + "/t.csv' --color speed --fps 20");
+    const Outcome run = run_scree(brief + "--steps 60 --report - --html '" + at + "/a.html' --frames '" + at +
+                                  "/f' --size 64x48 --trajectory '" + at + "/t.csv' --color speed --fps 20");
     INFO(run.errors);
     REQUIRE(run.status == 0);
     CHECK(without_extremes(alone.output) == without_extremes(run.output));

@@ -462,7 +462,8 @@ int run(RunOptions options) {
     preparing.emplace(options.timeline.get(), "make the canvas");
     if (options.pictures.shown()) options.shown = shown_of(options.copies, subject);
     if (options.draws) {
-        pictures.emplace(options.pictures, options.exchange ? drawing_from_host(machine) : machine, subject, world, options.shown);
+        pictures.emplace(options.pictures, options.exchange ? drawing_from_host(machine) : machine, subject, world,
+                         options.shown);
         if (options.exchange && !options.saves && options.pictures.html.empty()) subject.scene = {};  // as large as its tables
     }
     if (pictures) report.canvas = pictures->canvas();
@@ -553,9 +554,9 @@ void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) 
 // Every rank does the same, and the first alone writes and speaks.
 void make_silent(RunOptions& options) {
     options.quiet = true;
-    for (std::string* file :
-         {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.trace.file,
-          &options.pictures.frames, &options.pictures.video, &options.pictures.preview, &options.pictures.raw, &options.pictures.html})
+    for (std::string* file : {&options.report, &options.save, &options.trajectory.file, &options.animation.file,
+                              &options.trace.file, &options.pictures.frames, &options.pictures.video, &options.pictures.preview,
+                              &options.pictures.raw, &options.pictures.html})
         file->clear();
 }
 
@@ -588,8 +589,7 @@ int run(const CLI::App& command, RunOptions options) {
     if (!on_devices && options.machine.threads == 0)
         options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours.count);
     if (on_devices && options.machine.device.empty()) options.machine.device = device_of_rank(neighbours.place);
-    options.is_watched =
-        !options.trajectory.file.empty() || !options.animation.file.empty() || !options.pictures.html.empty();
+    options.is_watched = !options.trajectory.file.empty() || !options.animation.file.empty() || !options.pictures.html.empty();
     options.saves = !options.save.empty();
     if (!options.speaks()) make_silent(options);
     const std::shared_ptr<Exchange> exchange = options.exchange;  // until the world is gone

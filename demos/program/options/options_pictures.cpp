@@ -159,11 +159,12 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
-        .add_option("--html", options.html,
-                    "A page that plays the run in any browser, without a network: the bodies to look at from all sides, their "
-                    "momentum, speed and forces over time. Poses to a few parts in a thousand of a body, as the page tells. Takes "
-                    "--fps, --color and its like, --show, --sky, --sun and the camera; --show contacts records every contact "
-                    "(as it does of up to 1000 bodies).")
+        .add_option(
+            "--html", options.html,
+            "A page that plays the run in any browser, without a network: the bodies to look at from all sides, their "
+            "momentum, speed and forces over time. Poses to a few parts in a thousand of a body, as the page tells. Takes "
+            "--fps, --color and its like, --show, --sky, --sun and the camera; --show contacts records every contact "
+            "(as it does of up to 1000 bodies).")
         ->group(group);
     command
         .add_option("--cameras", options.cameras,
@@ -212,7 +213,8 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
 
 // Options of pictures that say something of a page, too.
 static bool is_of_pages(const std::string& option) {
-    for (const char* known : {"--html", "--fps", "--color", "--color-map", "--color-range", "--color-scale", "--show", "--sky", "--sun"})
+    for (const char* known :
+         {"--html", "--fps", "--color", "--color-map", "--color-range", "--color-scale", "--show", "--sky", "--sun"})
         if (option == known) return true;
     return false;
 }
