@@ -147,7 +147,7 @@ export class Renderer {
     for (; this.shapesOfMeshes < scene.meshes.length; ++this.shapesOfMeshes) {
       const mesh = scene.meshes[this.shapesOfMeshes];
       mesh.radius = geometry.radiusOf(mesh);
-      const drawn = this.addGeometry('solid', mesh.kind === 'hull' ? geometry.hull(mesh) : geometry.surface(mesh));
+      const drawn = this.addGeometry('mesh', mesh.kind === 'hull' ? geometry.hull(mesh) : geometry.surface(mesh));
       // A hull of few pixels is drawn as a ball.
       this.levels[FIRST_MESH + this.shapesOfMeshes] = mesh.kind === 'hull' ? [[1.2, drawn], [0, -1]] : [[0, drawn]];
     }
