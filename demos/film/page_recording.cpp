@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/picture_style_fields.h"
@@ -26,9 +27,10 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view place_of_title = "<title>scree</title>", place_of_data = "<!-- recording -->";
-constexpr double seconds_of_block = 1.5;         // what a reader reads again to get to a moment
-constexpr std::size_t most_of_block = 4u << 20;  // bytes before compression
-constexpr std::size_t most_hits = 32;            // of a frame, the strongest
+constexpr double seconds_of_block = 1.5;          // what a reader reads again to get to a moment
+constexpr std::size_t most_of_block = 4u << 20;   // bytes before compression
+constexpr std::size_t most_of_events = 1u << 18;  // likewise, of all events
+constexpr std::size_t most_hits = 32;             // of a frame, the strongest
 
 std::string base64(std::string_view bytes) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -149,7 +151,7 @@ struct PageRecording::Impl {
     std::string block{};  // frames that are not written yet
     std::size_t first_of_block = 0, frames = 0;
     bool block_is_whole = false;
-    ChunkBytes events{};  // all
+    ChunkBytes events{};  // that are not written yet
     std::size_t event_count = 0;
     std::uint64_t recorded = std::numeric_limits<std::uint64_t>::max();  // at this step
     double seconds_encoding = 0;
@@ -183,6 +185,15 @@ struct PageRecording::Impl {
                       std::to_string(frames - first_of_block) + "\" data-whole=\"" + (block_is_whole ? "1" : "0") + "\"");
         block.clear();
         first_of_block = frames;
+    }
+
+    void put_events() {
+        ChunkBytes all;
+        all.count(std::exchange(event_count, 0));
+        all.append(std::exchange(events, {}));
+        std::string chunk;
+        append_chunk(chunk, "evnt", all);
+        put_block("events", chunk);
     }
 
     json head() const;
@@ -266,6 +277,7 @@ void PageRecording::Impl::take_events() {
         events.vector(event.point);
         ++event_count;
     }
+    if (events.bytes.size() > most_of_events) put_events();
 }
 
 void PageRecording::Impl::record() {
@@ -335,12 +347,7 @@ void PageRecording::after_step() {
 void PageRecording::finish() {
     Impl& in = *interior_;
     in.put_frames();
-    ChunkBytes all;
-    all.count(in.event_count);
-    all.append(in.events);
-    std::string chunk;
-    append_chunk(chunk, "evnt", all);
-    in.put_block("events", chunk);
+    in.put_events();
     const std::string_view page = viewer_page();
     in.file.append(page.substr(page.find(place_of_data) + place_of_data.size()));
     in.file.commit();
