@@ -24,6 +24,7 @@
 #include "demos/program/options/output_check.h"
 #include "demos/program/outputs/checkpoints.h"
 #include "demos/program/outputs/export_file.h"
+#include "demos/program/outputs/page_file.h"
 #include "demos/program/outputs/report.h"
 #include "demos/program/outputs/trace_file.h"
 #include "demos/program/outputs/trajectory.h"
@@ -55,6 +56,7 @@ struct RunOptions {
     std::optional<ResumedRun> resumed;
     bool quiet = false;
     std::string command_line;
+    CopiesShown shown{};
     bool distributed = false;
     std::shared_ptr<Exchange> exchange = nullptr;  // with the other ranks; null: the run is not distributed
     // What all ranks do alike, though the first alone has outputs: see silent().
@@ -89,10 +91,11 @@ void require_writable(const RunOptions& options) {
     require_writable_file("--save", options.save);
     require_sense(options.checkpoints);
     require_writable_file("--cameras", options.pictures.cameras);
+    require_writable_file("--html", options.pictures.html);
 }
 
 void require_steps_for_pictures(const RunOptions& options, float rate) {
-    if (!options.pictures.wanted() || options.pictures.fps <= static_cast<double>(rate)) return;
+    if (!options.pictures.shown() || options.pictures.fps <= static_cast<double>(rate)) return;
     throw UsageError(
         fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps, rate));
 }
@@ -145,27 +148,34 @@ constexpr int steps_a_timed_one = 16;
 // Files of motion that are written while the run steps.
 class Records {
 public:
-    Records(const RunOptions& options, const World& world) : animation_(make_animation(options.animation, world)) {
+    Records(const RunOptions& options, const LoadedScene& subject, World& world)
+        : animation_(make_animation(options.animation, world)) {
         if (!options.trajectory.file.empty()) trajectory_.emplace(options.trajectory, world);
+        if (!options.pictures.html.empty()) page_ = make_page(options.pictures, options.shown, subject, world);
     }
     int steps_until_due(const World& world) const {
         int steps = std::numeric_limits<int>::max();
         if (trajectory_) steps = std::min(steps, trajectory_->steps_until_due(world));
         if (animation_) steps = std::min(steps, animation_.steps_until_due(world));
+        if (page_) steps = std::min(steps, page_->steps_until_due());
         return steps;
     }
     void after_step(const World& world) {
         if (trajectory_) trajectory_->after_step(world);
         if (animation_) animation_.after_step(world);
+        if (page_) page_->after_step();
     }
     void finish() {
         if (trajectory_) trajectory_->finish();
         if (animation_) animation_.write();
+        if (page_) page_->finish();
     }
+    std::optional<PageFigures> page() const { return page_ ? std::optional(page_->figures()) : std::nullopt; }
 
 private:
     std::optional<Trajectory> trajectory_;
     Animation animation_;
+    std::unique_ptr<PageRecording> page_;
 };
 
 // Returns false if interrupted.
@@ -326,12 +336,17 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
         adviser.emplace(world, subject.streamed(), commanded, sees_contacts);
     else if (options.advises)
         adviser.emplace(world, commanded, sees_contacts);
-    Records records(options, world);
+    Records records(options, subject, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     complete_outputs();
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
     finish_pictures(pictures, report);
     records.finish();  // an interrupted run has them, too
+    if (const std::optional<PageFigures> page = records.page()) {
+        report.page_frames = page->frames;
+        report.page_bytes = page->bytes;
+        report.seconds_encoding_page = page->seconds_encoding;
+    }
     finishing.reset();
     if (options.timeline) world.set_timeline(nullptr);
     if (options.timeline) options.timeline->finish();
@@ -389,7 +404,7 @@ World world_of(LoadedScene& subject, const RunOptions& run, const Settings& sett
                const VaryCopy& vary) {
     const std::size_t copies = run.copies.copies;
     if (subject.others) return {subject.streamed(), settings, std::move(runner)};
-    if (copies == 0 && run.draws) return {subject.scene, settings, std::move(runner)};
+    if (copies == 0 && (run.draws || !run.pictures.html.empty())) return {subject.scene, settings, std::move(runner)};
     if (copies == 0) return {std::move(subject.scene), settings, std::move(runner)};
     try {
         return {subject.scene, settings, std::move(runner), copies, vary};
@@ -450,10 +465,11 @@ int run(RunOptions options) {
     }
     std::optional<Pictures> pictures;
     preparing.emplace(options.timeline.get(), "make the canvas");
+    if (options.pictures.shown()) options.shown = shown_of(options.copies, subject);
     if (options.draws) {
-        const CopiesShown shown = shown_of(options.copies, subject);
-        pictures.emplace(options.pictures, options.exchange ? drawing_from_host(machine) : machine, subject, world, shown);
-        if (options.exchange && !options.saves) subject.scene = {};  // as large as its tables
+        pictures.emplace(options.pictures, options.exchange ? drawing_from_host(machine) : machine, subject, world,
+                         options.shown);
+        if (options.exchange && !options.saves && options.pictures.html.empty()) subject.scene = {};  // as large as its tables
     }
     if (pictures) report.canvas = pictures->canvas();
     report.driver = machine.driver();
@@ -522,6 +538,7 @@ void require_distinct_outputs(const RunOptions& options) {
     require_distinct({{"--video", options.pictures.video},
                       {"--preview", options.pictures.preview},
                       {"--raw", options.pictures.raw},
+                      {"--html", options.pictures.html},
                       {"--cameras", options.pictures.cameras},
                       {"--report", options.report},
                       {"--save", options.save},
@@ -542,9 +559,9 @@ void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) 
 // Every rank does the same, and the first alone writes and speaks.
 void make_silent(RunOptions& options) {
     options.quiet = true;
-    for (std::string* file :
-         {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.trace.file,
-          &options.pictures.frames, &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
+    for (std::string* file : {&options.report, &options.save, &options.trajectory.file, &options.animation.file,
+                              &options.trace.file, &options.pictures.frames, &options.pictures.video, &options.pictures.preview,
+                              &options.pictures.raw, &options.pictures.html})
         file->clear();
 }
 
@@ -577,7 +594,7 @@ int run(const CLI::App& command, RunOptions options) {
     if (!on_devices && options.machine.threads == 0)
         options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours.count);
     if (on_devices && options.machine.device.empty()) options.machine.device = device_of_rank(neighbours.place);
-    options.is_watched = !options.trajectory.file.empty() || !options.animation.file.empty();
+    options.is_watched = !options.trajectory.file.empty() || !options.animation.file.empty() || !options.pictures.html.empty();
     options.saves = !options.save.empty();
     if (!options.speaks()) make_silent(options);
     const std::shared_ptr<Exchange> exchange = options.exchange;  // until the world is gone
@@ -626,6 +643,7 @@ void add_run(CLI::App& program, int& status) {
         "  scree run pile --frames out --channels depth,ids,normals,flow --size 640x480\n"
         "  scree run dominoes --trajectory run.npz\n"
         "  scree run wrecking --export wrecking.glb\n"
+        "  scree run glass --html glass.html\n"
         "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
         "  scree run pile --bodies 10k --seconds 2 --trace trace.json\n"
         "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4\n"

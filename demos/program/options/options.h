@@ -64,6 +64,7 @@ struct CameraOptions {
 
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
+    std::string html;                         // a page that plays the run; may be empty
     bool overwrite = false;                   // frames of an earlier run in the folder are removed
     std::string cameras;                      // JSON file of each picture's camera; may be empty
     std::vector<std::string> channels;        // depth, ids, parts, normals, flow (demos/film/channels.h)
@@ -90,6 +91,7 @@ struct PictureOptions {
     // Light of half floats for EXR files, where the canvas can.
     int drawn_bits() const { return bits != 0 ? bits : frame_files == "exr" && canvas != "gl" ? 16 : 8; }
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
+    bool shown() const { return wanted() || !html.empty(); }
     // Throws UsageError for an output without a name, for picture options without an output, and for two outputs
     // (`report` among them) to one file.
     void require_sense(const CLI::App& command) const;

@@ -159,6 +159,13 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
+        .add_option("--html", options.html,
+                    "A page, NAME.html, that plays the run in any browser without a network: bodies from all sides, and their "
+                    "momentum, speed and forces over time. Poses are within a few thousandths of a body's size; the page tells "
+                    "its errors. Takes --fps (as near as whole steps allow), --color and its like, --show, --sky, --sun and the "
+                    "camera. Contacts are recorded of at most 1000 bodies, or with --show contacts.")
+        ->group(group);
+    command
         .add_option("--cameras", options.cameras,
                     "JSON file with the camera of each picture: pose, world-to-camera matrix, focal length in pixels.")
         ->group(group);
@@ -203,8 +210,16 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
 
 }  // namespace
 
+// Options of pictures that say something of a page, too.
+static bool is_of_pages(const std::string& option) {
+    for (const char* known :
+         {"--html", "--fps", "--color", "--color-map", "--color-range", "--color-scale", "--show", "--sky", "--sun"})
+        if (option == known) return true;
+    return false;
+}
+
 void PictureOptions::require_sense(const CLI::App& command) const {
-    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--cameras", "--report"}) {
+    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--html", "--cameras", "--report"}) {
         for (const std::string& name : command.get_option(option)->results())
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
@@ -224,7 +239,9 @@ void PictureOptions::require_sense(const CLI::App& command) const {
     for (const CLI::Option* option : command.get_options()) {
         const std::string& group = option->get_group();
         if (option->count() == 0 || (group != "Pictures" && group != "Camera")) continue;
-        throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw");
+        if (!html.empty() && (group == "Camera" || is_of_pages(option->get_name()))) continue;
+        throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw" +
+                         (is_of_pages(option->get_name()) || group == "Camera" ? ", or --html" : ""));
     }
 }
 

@@ -1,0 +1,16 @@
+// Pages of scree run: --html FILE.
+#pragma once
+
+#include <memory>
+
+#include "demos/film/page_recording.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/program/options/options.h"
+
+namespace scree::demos {
+
+// A page with the camera, light and colours of the run's pictures. Throws UsageError where this program makes none.
+std::unique_ptr<PageRecording> make_page(const PictureOptions& options, const CopiesShown& shown, const LoadedScene& subject,
+                                         World& world);
+
+}  // namespace scree::demos
