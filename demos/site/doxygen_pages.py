@@ -64,7 +64,7 @@ def anchor(name: str) -> str:
 
 def escaped(text: str) -> str:
     """Plain text as Markdown."""
-    return re.sub(r"([*_\[\]<>~])", r"\\\1", text)
+    return re.sub(r"([*\[\]<>~])", r"\\\1", text)
 
 
 def name_of(thing: ET.Element) -> str:
@@ -79,6 +79,7 @@ class HeaderPage:
         self.reference = reference
         self.header = header
         self.here = book.site_path(header)
+        self.things = reference.headers.get(header, [])
         self.lines: List[str] = []
         self.headings: Dict[str, int] = {}
 
@@ -179,9 +180,9 @@ class HeaderPage:
             self.lines += ["", "<table><thead><tr><th>member</th><th>type</th><th>default</th><th>meaning</th></tr></thead><tbody>",
                            *rows, "</tbody></table>", ""]
 
-    def compound(self, thing: ET.Element) -> None:
+    def compound(self, thing: ET.Element, level: int) -> None:
         name = name_of(thing)
-        self.heading(2, f"{thing.get('kind')} {name}", anchor(name))
+        self.heading(level, f"{thing.get('kind')} {name}", anchor(name))
         bases = [self.link(base.get("refid", ""), html.escape(base.text or "")) for base in thing.findall("basecompoundref")]
         if bases:
             self.lines += [f"<p>Derives from {', '.join(bases)}.</p>"]
@@ -191,14 +192,17 @@ class HeaderPage:
         self.fields([member for member in members if member.get("kind") == "variable"])
         for member in members:
             if member.get("kind") == "enum":
-                self.enum(member, 3, name)
+                self.enum(member, level + 1, name)
             if member.get("kind") == "function" and not (member.findtext("name") or "").startswith("operator"):
-                self.function(member, 3, name)
+                self.function(member, level + 1, name)
 
-    def other(self, thing: ET.Element) -> None:
+    def other(self, thing: ET.Element, level: int) -> None:
         """A type's other name, a constant, a macro."""
         name = thing.findtext("name") or ""
-        self.heading(2, name, anchor(name_of(thing)))
+        kind = "".join((thing.find("type") if thing.find("type") is not None else thing).itertext())
+        if re.fullmatch(rf"(struct|enum) {name}", kind) and any(name_of(one) == name for one in self.things if one is not thing):
+            return  # C's other name of what has a heading
+        self.heading(level, name, anchor(name_of(thing)))
         if thing.get("kind") == "typedef":
             definition = thing.findtext("definition") or ""
             array = html.escape(thing.findtext("argsstring") or "")
@@ -214,17 +218,28 @@ class HeaderPage:
         title = self.header.split("/")[-1] if language == "c" else self.header
         include = "scree.h" if language == "c" else f"scree/{self.header}"
         self.lines = [f"# {title}", "", *opening(self.header), "", f"```{language}", f"#include <{include}>", "```", ""]
-        for thing in self.reference.headers.get(self.header, []):
+        sections = sections_of(self.header)
+        level = 3 if sections else 2
+        for thing in self.things:
+            while sections and int(thing.find("location").get("line", "0")) > sections[0][0]:
+                self.heading(2, sections[0][1], "section-" + anchor(sections[0][1]).lower())
+                sections.pop(0)
             if thing.tag == "compounddef":
-                self.compound(thing)
+                self.compound(thing, level)
             elif thing.get("kind") == "function":
                 if not (thing.findtext("name") or "").startswith("operator"):
-                    self.function(thing, 2, "")
+                    self.function(thing, level, "")
             elif thing.get("kind") == "enum":
-                self.enum(thing, 2, "")
+                self.enum(thing, level, "")
             else:
-                self.other(thing)
+                self.other(thing, level)
         return "\n".join(self.lines) + "\n"
+
+
+def sections_of(header: str) -> List[Tuple[int, str]]:
+    """Lines and titles of the parts into which comments divide scree.h."""
+    lines = (book.TOP / header).read_text(encoding="utf-8").splitlines()
+    return [(i, line[8:-3].strip()) for i, line in enumerate(lines, 1) if line.startswith("/* ---- ")]
 
 
 def opening(header: str) -> List[str]:

@@ -76,7 +76,7 @@ class ModulePage:
         arguments = ast.unparse(node.args)
         arguments = re.sub(r"^self(, )?", "", re.sub(r"^cls(, )?", "", arguments))
         returns = plain(node.returns)
-        self.lines += ["", f"{'#' * level} {escaped(mark)} {{ #{mark.replace('.', '-')} }}"]
+        self.lines += ["", f"{'#' * level} {mark} {{ #{mark.replace('.', '-')} }}"]
         if "property" in decorators:
             settable = any(isinstance(one, ast.FunctionDef) and f"{node.name}.setter" in map(plain, one.decorator_list) for one in self.siblings)
             self.signature(f"{mark}: {returns}" + ("    # can be set" if settable else ""))
