@@ -53,7 +53,7 @@ class ModulePage:
             return
         listed = False
         for line in text.splitlines():
-            entry = re.match(r"([a-z_]+(?:, [a-z_]+)*): (?=\S)", line)
+            entry = re.match(r"([a-z_]+(?: \([^)]*\))?(?:, [a-z_]+(?: \([^)]*\))?)*): (?=\S)", line)
             if line.startswith("    "):
                 if self.lines[-1].strip() and not self.lines[-1].startswith("    "):
                     self.lines.append("")
@@ -61,7 +61,7 @@ class ModulePage:
             elif entry:
                 if not listed:
                     self.lines.append("")
-                self.lines.append(f"- `{entry[1]}`: {escaped(line[entry.end():])}")
+                self.lines.append(f"- {in_code(entry[1])}: {escaped(line[entry.end():])}")
                 listed = True
             else:
                 listed = listed and bool(line.strip())
@@ -176,3 +176,8 @@ def names_of(module: str) -> List[str]:
     """The names that a module offers."""
     tree = ast.parse((book.TOP / PACKAGE / source_of(module)).read_text(encoding="utf-8"))
     return [node.name for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and node.name in offered()]
+
+
+def in_code(names: str) -> str:
+    """Names as code, their units as they are: `density` (kg/m^3), `friction`."""
+    return re.sub(r"(?<![(\w])([a-z_]+)(?=,| \(|$)", r"`\1`", names)
