@@ -45,6 +45,10 @@ def to_jpeg(picture: Path, there: Path) -> None:
     subprocess.run(["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-i", str(picture), "-q:v", "3", "-bitexact", str(there)], check=True)
 
 
+# Relative folders of PYTHONPATH are those of the caller.
+SURROUNDINGS = {**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))))}
+
+
 def run(name: str, keep: "Path | None", pictures: bool) -> List[str]:
     """Runs one, and returns what is wrong with it."""
     with tempfile.TemporaryDirectory() as folder:
@@ -52,7 +56,7 @@ def run(name: str, keep: "Path | None", pictures: bool) -> List[str]:
         script.write_text(script_of(name), encoding="utf-8")
         begun = time.monotonic()
         done = subprocess.run([sys.executable, "-B", script.name], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              check=False, timeout=300)
+                              check=False, timeout=300, env=SURROUNDINGS)
         print(f"{name}: {time.monotonic() - begun:.1f} s", flush=True)
         if done.returncode:
             return [f"{name}: {done.stdout}"]
@@ -63,7 +67,7 @@ def run(name: str, keep: "Path | None", pictures: bool) -> List[str]:
             return [f"{name}: makes {len(made['.png'])} pictures and {len(made['.json'])} scenes, should make one picture, at most one scene"]
         for scene in made[".json"]:
             checked = subprocess.run([sys.executable, "-B", "-c", CHECK_SCENE, str(scene), *blocks_of(name, "json")], stdout=subprocess.PIPE,
-                                     stderr=subprocess.STDOUT, text=True, check=False)
+                                     stderr=subprocess.STDOUT, text=True, check=False, env=SURROUNDINGS)
             if checked.returncode:
                 return [f"{name}: {scene.name}: {checked.stdout}"]
             if keep:
