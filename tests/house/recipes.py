@@ -21,7 +21,8 @@ ast.parse(filled(RECIPES / "conan" / "conanfile.py"))
 manifest = json.loads(filled(RECIPES / "vcpkg" / "vcpkg.json"))
 plain = re.sub(r"\{%.*?%\}", "", re.sub(r"\{\{.*?\}\}", "x", filled(RECIPES / "conda-forge" / "meta.yaml")))
 recipe = yaml.safe_load(plain)
-yaml.safe_load((TOP / ".github" / "workflows" / "wheels.yml").read_text())
+for workflow in sorted((TOP / ".github" / "workflows").glob("*.yml")):
+    yaml.safe_load(workflow.read_text())
 
 known = set(re.findall(r"(?:option\(|set\()(SCREE_[A-Z0-9_]+)", "".join(f.read_text() for f in TOP.glob("**/CMakeLists.txt")
                                                                       if "build" not in f.parts)))

@@ -75,10 +75,12 @@ class Scene(Bodies[_native.Description]):
         """Adds a body, or many that are alike, in one call.
 
         position: (3,) or (n, 3), of the centre of mass, m; of hulls, compounds and meshes of the origin of their points.
-        orientation: (4,) or (n, 4), x, y, z, w. velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
+        orientation: (4,) or (n, 4), x, y, z, w.
+        velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
         motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
-        mass: kg, a number or (n,), in place of density: the scene gets the density that gives it. density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping, angular_damping (1/s),
-        gravity_scale: numbers or (n,). name, filter, tyre, fracture, inertial, role ("sensor", "drawn") and every other key of a body in a scene file: of all.
+        mass: kg, a number or (n,), in place of density: the scene gets the density that gives it.
+        density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping (1/s), angular_damping (1/s), gravity_scale: numbers or (n,).
+        name, filter, tyre, fracture, inertial, role ("sensor", "drawn"): of all, as every other key of a body in a scene file.
 
         Returns the id of the body; of many their ids, (n,) int64. Ids count bodies from 0 and do not change.
         Raises SceneError, whose `pointer` names the value, here or when a World is made; TypeError for an unknown key.
