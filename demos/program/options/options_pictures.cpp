@@ -163,7 +163,7 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "A page, NAME.html, that plays the run in any browser without a network: bodies from all sides, and their "
                     "momentum, speed and forces over time. Poses are within a few thousandths of a body's size; the page tells "
                     "its errors. Takes --fps (as near as whole steps allow), --color and its like, --show, --sky, --sun and the "
-                    "camera. Contacts are recorded of at most 1000 bodies, or with --show contacts.")
+                    "camera. Contacts are recorded of at most 2000 bodies, or with --show contacts.")
         ->group(group);
     command
         .add_option("--cameras", options.cameras,
