@@ -1,6 +1,7 @@
 # Pages of the C++ and C reference, from the XML that doxygen makes of the headers.
 """A page for each header: its opening comment, then what it declares, in its order, with links between types."""
 import html
+import posixpath
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -31,7 +32,7 @@ class Reference:
                     if member.get("kind") != "define" or "SCREE_INIT" in (member.findtext("name") or ""):
                         self._place(member)
         for declared in self.headers.values():
-            declared.sort(key=lambda one: int(one.find("location").get("line", "0")))
+            declared.sort(key=lambda one: line_of(one))
         self._name_all()
 
     @staticmethod
@@ -41,7 +42,8 @@ class Reference:
         return location is not None and "<" not in (compound.findtext("compoundname") or "")
 
     def _place(self, thing: ET.Element) -> None:
-        declared = self.headers.setdefault(thing.find("location").get("file", ""), [])
+        location = thing.find("location")
+        declared = self.headers.setdefault(location.get("file", "") if location is not None else "", [])
         if all(one.get("id") != thing.get("id") for one in declared):
             declared.append(thing)
 
@@ -56,6 +58,11 @@ class Reference:
                     self.anchors[member.get("id", "")] = (page, anchor(f"{name}::{member.findtext('name')}" if own else name))
                 for value in (*thing.findall("enumvalue"), *thing.findall("sectiondef/memberdef/enumvalue")):
                     self.anchors[value.get("id", "")] = (page, anchor(name))
+
+
+def line_of(thing: ET.Element) -> int:
+    location = thing.find("location")
+    return int(location.get("line", "0")) if location is not None else 0
 
 
 def anchor(name: str) -> str:
@@ -88,7 +95,7 @@ class HeaderPage:
         page, mark = self.reference.anchors.get(refid, ("", ""))
         if not page or mark == "operator":
             return text
-        there = "" if page == self.here else book.posixpath.relpath(page, book.posixpath.dirname(self.here))[:-3] + ".html"
+        there = "" if page == self.here else posixpath.relpath(page, posixpath.dirname(self.here))[:-3] + ".html"
         return f'<a href="{there}#{mark}">{text}</a>'
 
     def inline(self, node: ET.Element) -> str:
@@ -109,8 +116,11 @@ class HeaderPage:
 
     def described(self, thing: ET.Element) -> List[str]:
         """Its paragraphs, as HTML."""
-        found = [para for tag in ("briefdescription", "detaileddescription") for para in thing.findall(f"{tag}/para")]
-        return [text for text in map(self.inline, found) if text]
+        brief, more = ([text for text in map(self.inline, thing.findall(f"{tag}/para")) if text]
+                       for tag in ("briefdescription", "detaileddescription"))
+        if brief and more:  # doxygen cuts the first sentence off
+            return [f"{brief[0]} {more[0]}", *brief[1:], *more[1:]]
+        return brief + more
 
     def cell(self, thing: ET.Element) -> str:
         return " ".join(self.described(thing))
@@ -169,16 +179,18 @@ class HeaderPage:
 
     def fields(self, members: List[ET.Element]) -> None:
         rows = []
+        defaults = any((member.findtext("initializer") or "= {}") != "= {}" for member in members)
         for member in members:
             start = member.find("initializer")
             value = re.sub(r"\s+", " ", self.inline(start)).strip() if start is not None else ""
             value = re.sub(r"^= ?", "", value)
             array = html.escape(member.findtext("argsstring") or "")
             rows.append(f"<tr><td><code>{member.findtext('name')}{array}</code></td><td><code>{self.type_of(member)}</code></td>"
-                        f"<td>{f'<code>{value}</code>' if value and value != '{}' else ''}</td><td>{self.cell(member)}</td></tr>")
+                        + (f"<td>{f'<code>{value}</code>' if value and value != '{}' else ''}</td>" if defaults else "")
+                        + f"<td>{self.cell(member)}</td></tr>")
         if rows:
-            self.lines += ["", "<table><thead><tr><th>member</th><th>type</th><th>default</th><th>meaning</th></tr></thead><tbody>",
-                           *rows, "</tbody></table>", ""]
+            self.lines += ["", "<table><thead><tr><th>member</th><th>type</th>" + "<th>default</th>" * defaults +
+                           "<th>meaning</th></tr></thead><tbody>", *rows, "</tbody></table>", ""]
 
     def compound(self, thing: ET.Element, level: int) -> None:
         name = name_of(thing)
@@ -188,7 +200,7 @@ class HeaderPage:
             self.lines += [f"<p>Derives from {', '.join(bases)}.</p>"]
         self.prose(thing)
         members = [member for member in thing.findall("sectiondef/memberdef") if member.get("prot") != "private"]
-        members.sort(key=lambda one: int(one.find("location").get("line", "0")))
+        members.sort(key=line_of)
         self.fields([member for member in members if member.get("kind") == "variable"])
         for member in members:
             if member.get("kind") == "enum":
@@ -199,7 +211,7 @@ class HeaderPage:
     def other(self, thing: ET.Element, level: int) -> None:
         """A type's other name, a constant, a macro."""
         name = thing.findtext("name") or ""
-        kind = "".join((thing.find("type") if thing.find("type") is not None else thing).itertext())
+        kind = re.sub("<[^>]*>", "", self.type_of(thing))
         if re.fullmatch(rf"(struct|enum) {name}", kind) and any(name_of(one) == name for one in self.things if one is not thing):
             return  # C's other name of what has a heading
         self.heading(level, name, anchor(name_of(thing)))
@@ -221,7 +233,7 @@ class HeaderPage:
         sections = sections_of(self.header)
         level = 3 if sections else 2
         for thing in self.things:
-            while sections and int(thing.find("location").get("line", "0")) > sections[0][0]:
+            while sections and line_of(thing) > sections[0][0]:
                 self.heading(2, sections[0][1], "section-" + anchor(sections[0][1]).lower())
                 sections.pop(0)
             if thing.tag == "compounddef":

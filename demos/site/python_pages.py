@@ -107,8 +107,7 @@ class ModulePage:
         if values:
             text = (book.TOP / PACKAGE / source_of(self.module)).read_text(encoding="utf-8").splitlines()
             rows = ["", "| value | meaning |", "|---|---|"]
-            for one in values:
-                rows.append(f"| `{plain(one.targets[0])}` | {text[one.lineno - 1].partition('# ')[2]} |")
+            rows += [f"| `{plain(value.targets[0])}` | {text[value.lineno - 1].partition('# ')[2]} |" for value in values]
             self.lines += [*rows, ""]
         for one in node.body:
             if isinstance(one, ast.FunctionDef) and not one.name.startswith("_"):

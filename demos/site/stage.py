@@ -75,8 +75,8 @@ class Stage:
         lines += [f"| [{header}](cpp/{book.header_page(header)[8:]}) | {doxygen_pages.first_sentence(header)} |" for header in book.public_headers()]
         self.write("api/index.md", "\n".join(lines) + "\n")
 
-    def add_lessons(self, folder: Optional[Path]) -> None:
-        """Each lesson's script, and of a folder where they were run their pictures and scene files."""
+    def add_lessons(self, folder: Optional[Path], recordings: Optional[Path]) -> None:
+        """Each lesson's script, of a folder where they were run their pictures and scene files, and recordings of these."""
         for name in lessons.names():
             self.write(f"lessons/{name}.py", lessons.script_of(name))
             scene = folder / f"{name}.json" if folder else None
@@ -86,6 +86,9 @@ class Stage:
             if scene and scene.exists():
                 self.copy(scene, f"lessons/{name}.json")
                 files.append(f"[the scene as a file]({name}.json)")
+            if recordings and (recordings / f"lesson-{name}.html").exists():
+                self.copy(recordings / f"lesson-{name}.html", f"recordings/lesson-{name}.html")
+                files.append(f"[the scene as a recording](../recordings/lesson-{name}.html), to be turned and paused")
             page = self.docs / "lessons" / f"{name}.md"
             page.write_text(page.read_text(encoding="utf-8") + f"\nDownload: {', '.join(files)}.\n", encoding="utf-8")
 
@@ -94,6 +97,8 @@ class Stage:
         page = self.docs / "guide" / "gallery.md"
         text = page.read_text(encoding="utf-8")
         for recording in sorted(folder.glob("*.html")) if folder else ():
+            if recording.name.startswith("lesson-"):
+                continue
             picture = f"![](../pictures/{recording.stem}.jpg)"
             if picture not in text:
                 self.faults.append(f"{recording.name}: the gallery has no picture of that demo")
@@ -131,7 +136,7 @@ def main() -> int:
     stage = Stage(given.folder)
     stage.add_pages()
     stage.add_reference(given.reference)
-    stage.add_lessons(given.lessons)
+    stage.add_lessons(given.lessons, given.recordings)
     stage.add_recordings(given.recordings)
     for name in ("style.css", "scree.svg", "worker.js"):
         stage.copy(Path(__file__).parent / name, f"assets/{name}")

@@ -39,6 +39,31 @@ class Pages(unittest.TestCase):
             self.assertTrue((stage / "docs" / page).is_file(), page)
         self.assertIn("](api/cpp/", (stage / "docs" / "api" / "index.md").read_text().replace("](cpp/", "](api/cpp/"))
 
+    def test_recordings_are_opened_by_pictures_and_lessons(self):
+        stage, recordings, made = (self.folder / name for name in ("recorded", "recordings", "lessons"))
+        for folder in (recordings, made):
+            folder.mkdir()
+        for name in ("wall", "lesson-stack"):
+            (recordings / f"{name}.html").write_text("<p>a run</p>")
+        for name in lessons.names():
+            (made / f"{name}.jpg").write_text("")
+        (made / "stack.json").write_text("{}")
+        command = [sys.executable, "-B", TOP / "demos/site/stage.py", stage, "--reference", self.folder / "reference" / "xml",
+                   "--lessons", made, "--recordings", recordings]
+        self.assertEqual(subprocess.run(command, check=False).returncode, 0)
+        gallery = (stage / "docs" / "guide" / "gallery.md").read_text()
+        self.assertIn("[![](../pictures/wall.jpg)](../recordings/wall.html ", gallery)
+        self.assertNotIn("](../recordings/stack.html", gallery)
+        lesson = (stage / "docs" / "lessons" / "stack.md").read_text()
+        self.assertIn("](stack.json)", lesson)
+        self.assertIn("](../recordings/lesson-stack.html)", lesson)
+        shutil.rmtree(stage)
+        (recordings / "walk.html").write_text("")
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("walk.html: the gallery has no picture of that demo", done.stdout)
+        self.assertFalse(stage.exists())
+
     def test_links_that_lead_nowhere_are_told(self):
         page = book.Page("README.md", lambda path: None)
         self.assertTrue(page.on_site())
