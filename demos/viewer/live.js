@@ -366,6 +366,7 @@ export async function openLive(Player) {
     player.letGo();
     drivingKeys.release(player);
   });
+  document.documentElement.dataset.live = '';
   window.scree = player;
   requestAnimationFrame((time) => player.tick(time));
 }
