@@ -228,7 +228,7 @@ export class Controls {
     this.drawGraphs();
   }
   drawGraphs() {
-    const { history, frame } = this.player;
+    const { history } = this.player, frame = history?.cursor ?? this.player.frame;
     if (!history) return;
     const at = Math.min(Math.round(frame), history.done - 1);
     for (const series of history.series) {

@@ -140,6 +140,7 @@ class LiveHistory {
     this.all[3].about = 'change of momentum per time';
   }
   get series() { return this.all; }
+  get cursor() { return Math.max(0, this.done - 1); }
   stop() {}
   add() {
     const { source, place } = this, { now, decoder, scene } = source, { mass } = scene.bodies[place];
@@ -273,7 +274,7 @@ const livePlayer = (Player) => class extends Player {
 
   state() {
     const { source } = this, { state } = source;
-    return { ...super.state(), time: source.now.time, step: source.now.step, live: !source.ended, drives: this.drives, server: state, held: this.held?.place ?? -1,
+    return { ...super.state(), time: source.now.time, step: source.now.index < 0 ? -1 : source.now.step, live: !source.ended, drives: this.drives, server: state, held: this.held?.place ?? -1,
       bytes: source.bytes, received: source.received, pace: source.pace, ready: source.now.index >= 0 };
   }
 };
