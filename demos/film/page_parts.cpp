@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -84,16 +85,29 @@ struct PageExtent {
     }
 };
 
+std::string packed(const std::string& chunks, int effort, int memory, int strategy) {
+    z_stream stream{};
+    if (deflateInit2(&stream, effort, Z_DEFLATED, 15, memory, strategy) != Z_OK) throw std::bad_alloc();
+    std::string out(deflateBound(&stream, static_cast<uLong>(chunks.size())) + 1, '\1');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(chunks.data()));
+    stream.avail_in = static_cast<uInt>(chunks.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data()) + 1;
+    stream.avail_out = static_cast<uInt>(out.size() - 1);
+    const int result = deflate(&stream, Z_FINISH);
+    out.resize(1 + stream.total_out);
+    deflateEnd(&stream);
+    if (result != Z_STREAM_END) throw std::bad_alloc();
+    return out;
+}
+
 }  // namespace
 
-std::string packed_block(const std::string& chunks, int effort) {
-    uLongf size = compressBound(static_cast<uLong>(chunks.size()));
-    std::string out(size + 1, '\1');
-    if (compress2(reinterpret_cast<Bytef*>(out.data()) + 1, &size, reinterpret_cast<const Bytef*>(chunks.data()),
-                  static_cast<uLong>(chunks.size()), effort) != Z_OK)
-        throw std::bad_alloc();
-    out.resize(size + 1);
-    return out;
+std::string packed_block(const std::string& chunks) {
+    return packed(chunks, 6, 8, Z_DEFAULT_STRATEGY);
+}
+
+std::string packed_frame(const std::string& chunks) {
+    return packed(chunks, 1, 7, Z_RLE);
 }
 
 FrameUnits units_of(const World& world, const PageOptions& options, double seconds) {

@@ -11,8 +11,11 @@
 
 namespace scree::demos {
 
-// A block as it is sent: 1, and the chunks as a zlib stream. `effort`: 1 fastest, 9 smallest.
-std::string packed_block(const std::string& chunks, int effort = 6);
+// A block as it is sent: 1, and the chunks as a zlib stream.
+std::string packed_block(const std::string& chunks);
+// Likewise of one frame, whose columns have few words that come again: by runs and Huffman codes alone, which takes half the time
+// and is smaller.
+std::string packed_frame(const std::string& chunks);
 
 // For frames that are `seconds` apart.
 FrameUnits units_of(const World& world, const PageOptions& options, double seconds);

@@ -281,7 +281,7 @@ test('serve: thousands of random messages and bytes end viewers at most', { ...o
   const values = [0, 1, -1, 2.5, 1e9, 1e-9, 1e308, true, false, null, 'w', '', [], {}, [0, 1, 2], [0, -9.81, 0], at(0, 2), { ...at(0, 2), fov: -1 }, 'wall', 5];
   const keys = ['frames', 'on', 'fps', 'step', 'value', 'name', 'bodies', 'gravity', 'substeps', 'at', 'body', 'clicks', 'key'];
   let sent = 0, ended = 0;
-  for (let round = 0; round < 60; ++round) {
+  for (let round = 0; sent < 3000; ++round) {
     const viewer = await server.viewer();
     if (viewer.status !== 101) continue;
     if (round % 3 === 0) watcher.tell({ do: 'yield' }), viewer.tell({ do: 'take' });
@@ -300,7 +300,7 @@ test('serve: thousands of random messages and bytes end viewers at most', { ...o
     if (viewer.closed !== null || viewer.socket.destroyed) ++ended;
     viewer.close();
   }
-  assert.ok(sent > 500 && ended > 10, `${sent} sent, ${ended} ended`);
+  assert.ok(ended > 10, `${sent} sent, ${ended} ended`);
   const last = await server.viewer(), sees = new Eyes(last);
   await last.until(() => sees.moments > 0, 'a frame after all that');
   assert.equal(server.child.exitCode, null);

@@ -12,14 +12,13 @@ namespace scree::demos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int effort_of_frames = 1, effort_of_scenes = 4;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-LiveStream::Message packed_message(const std::string& chunks, int effort) {
-    return std::make_shared<const std::string>(packed_block(chunks, effort));
+LiveStream::Message shared(std::string bytes) {
+    return std::make_shared<const std::string>(std::move(bytes));
 }
 
 }  // namespace
@@ -68,15 +67,15 @@ LiveStream::Message LiveStream::news(const World& world) {
     chunks_.take_new(block, world);
     if (block.empty()) return nullptr;
     remember(block);
-    return packed_message(block, effort_of_frames);
+    return shared(packed_block(block));
 }
 
 LiveStream::Message LiveStream::beginning(std::size_t lane) {
-    return packed_message(lane_[lane].head + bodies_ + joints_, effort_of_scenes);
+    return shared(packed_block(lane_[lane].head + bodies_ + joints_));
 }
 
 LiveStream::Message LiveStream::head(std::size_t lane) {
-    return packed_message(lane_[lane].head, effort_of_frames);
+    return shared(packed_block(lane_[lane].head));
 }
 
 bool LiveStream::is_busy() {
@@ -175,7 +174,7 @@ void LiveStream::encode(const World* world) {
         append_chunk(block, "fram", frame);
         const double encoding = seconds_since(begun);
         const auto packing = Clock::now();
-        const Message message = packed_message(block, effort_of_frames);
+        const Message message = shared(packed_frame(block));
         {
             const std::lock_guard lock(mutex_);
             ++figures_.frames;
