@@ -203,7 +203,7 @@ export class LivePanel {
     this.mirror(this.gravity, String(Number((-server.gravity[1]).toPrecision(6))));
     this.mirror(this.substeps, String(server.substeps));
     this.set(this.message, server.message);
-    const slow = server.real_speed < 0.9 * server.speed && !server.paused ? `, ${numberText(server.real_speed, 2)} of ${numberText(server.speed, 2)} of real time` : '';
+    const slow = server.real_speed < 0.9 * server.speed && !server.paused ? `; time runs at ${numberText(server.real_speed, 2)}×` : '';
     this.set(this.rate, `A step of ${numberText(server.rate)} a second takes ${numberText(server.step_ms, 2)} ms${slow}.`);
     if (player.selected >= 0) this.controls.drawGraphs();
   }

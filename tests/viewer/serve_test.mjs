@@ -108,6 +108,12 @@ test('serve: the page and the stream are for those with the token, from its own 
   const viewer = await server.viewer();
   assert.equal(viewer.status, 101);
   assert.equal((await server.viewer({ origin: null })).status, 101);  // no browser
+  // As through ssh -L 9000:127.0.0.1:PORT.
+  assert.equal((await server.viewer({ origin: 'http://localhost:9000', headers: { Host: 'localhost:9000' } })).status, 101);
+  // A connection that says nothing is ended.
+  const begun = Date.now();
+  await server.request('GET /?tok');
+  assert.ok(Date.now() - begun < 14000, 'it is kept open');
 }));
 
 test('serve: bodies move, and a driver pauses, steps, keeps, returns, restarts and goes back', options, () => serving([sceneFile('fall', fall)], async (server) => {

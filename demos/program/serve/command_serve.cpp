@@ -92,7 +92,7 @@ void add_serve(CLI::App& program, int& status) {
         "other\n"
         "demos; others watch, and may take over. Time passes while somebody watches. Ctrl-C ends.\n\n"
         "Examples:\n  scree serve wall\n  scree serve pile --bodies 10k --port 9000\n"
-        "  ssh -L 8080:127.0.0.1:8080 HOST scree serve cars       and open the address here");
+        "  ssh -t -L 8080:127.0.0.1:8080 HOST scree serve cars    and open the address here");
     command->callback([options, &status] { status = serve(*options); });
 }
 

@@ -59,7 +59,6 @@ public:
     // The present moment for these audiences. Not while busy.
     void tick(World& world, const std::vector<Audience>& audiences);
     StreamFigures figures();
-    double error() const { return lane_[0].units.position_error(); }
 
 private:
     struct Lane {
