@@ -339,8 +339,9 @@ class LiveControls extends Controls {
 
 export async function openLive(Player) {
   const token = new URLSearchParams(location.search).get('token') ?? '', trouble = document.getElementById('trouble');
-  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-  const source = new LiveSource(`${scheme}://${location.host}/stream?token=${encodeURIComponent(token)}`);
+  const address = new URL(`stream?token=${encodeURIComponent(token)}`, location.href);
+  address.protocol = address.protocol.replace(/^..../, 'ws');
+  const source = new LiveSource(address.href);
   const tellEnd = (reason) => {
     const again = document.createElement('button');
     again.type = 'button';
