@@ -294,8 +294,16 @@ void Interaction::undo() {
 }
 
 void Interaction::open(const std::string& name) {
+    open([&] { session_.open(name); });
+}
+
+void Interaction::open(const SceneOptions& options) {
+    open([&] { session_.open(options); });
+}
+
+void Interaction::open(const std::function<void()>& work) {
     try {
-        session_.open(name);
+        work();
     } catch (const std::exception& error) {
         message_ = error.what();
         return;
@@ -303,6 +311,33 @@ void Interaction::open(const std::string& name) {
     message_.clear();
     begin_again();
     eye_ = OrbitCamera(session_.subject().viewpoint);
+}
+
+void Interaction::return_to(const Session::Moment& moment) {
+    const std::optional<std::size_t> selected = selected_;
+    begin_again();
+    try {
+        session_.return_to(moment);
+        message_.clear();
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+    selected_ = selected;
+    forget_removed();
+}
+
+void Interaction::look_from(const Viewpoint& view, Extent extent) {
+    eye_ = OrbitCamera(view);
+    extent_ = extent;
+}
+
+void Interaction::let_all_go() {
+    pressed_.reset();
+    if (hold_) let_go();
+    motion_ = Motion::none;
+    held_keys_.clear();
+    if (told_) drive();
+    told_.reset();
 }
 
 void Interaction::open_next(int direction) {

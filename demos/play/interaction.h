@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -69,15 +70,17 @@ public:
     float pace = 1;        // simulated seconds per second
     void step_once() { ++single_steps_; }
     void reset();
-    void go_to(std::uint64_t step);        // of the session's time line
-    void undo();                           // the last command
-    void open(const std::string& name);    // errors go to message()
-    void open_next(int direction);         // next or previous demo of the gallery
-    void add(Kind kind);                   // above the centre of the view
-    void throw_body(Kind kind);            // from the eye towards the pointer
-    void explode();                        // at the pointer
-    void reset_upright();                  // the vehicle, at its position
-    void perform(const UserCommand& act);  // errors go to message()
+    void go_to(std::uint64_t step);      // of the session's time line
+    void undo();                         // the last command
+    void open(const std::string& name);  // errors go to message()
+    void open(const SceneOptions& options);
+    void return_to(const Session::Moment& moment);  // errors go to message()
+    void open_next(int direction);                  // next or previous demo of the gallery
+    void add(Kind kind);                            // above the centre of the view
+    void throw_body(Kind kind);                     // from the eye towards the pointer
+    void explode();                                 // at the pointer
+    void reset_upright();                           // the vehicle, at its position
+    void perform(const UserCommand& act);           // errors go to message()
 
     // Edits of the selected body; errors go to message().
     void remove_selected();
@@ -94,11 +97,15 @@ public:
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
     const OrbitCamera& eye() const { return eye_; }
-    std::optional<std::size_t> selected() const;  // that exists
+    void look_from(const Viewpoint& view, Extent extent);  // of a picture elsewhere, which the pointer then points at
+    std::optional<std::size_t> selected() const;           // that exists
     std::optional<std::size_t> held() const { return hold_ ? std::optional(hold_->body) : std::nullopt; }
     // The body under the pointer while no button is pressed; casts a ray at all bodies.
     std::optional<RayHit> hovered();
     void select(std::optional<std::size_t> body) { selected_ = body; }
+    // Grabs this body where the pointer is, or by its centre where it has left the pointer meanwhile.
+    void grab_body(std::size_t body);
+    void let_all_go();                           // body and keys, as when the user leaves
     std::optional<std::size_t> vehicle() const;  // the vehicle driven by keys: the selected body's, or the first
     std::optional<Pull> pull();
     std::vector<Handled> handled();  // grabs so far, including the current one
@@ -120,6 +127,7 @@ private:
     void scroll(double clicks);
     void press_key(const host::Event& event);
     void begin_again();
+    void open(const std::function<void()>& work);
     void forget_removed();
     void pick(const RayHit& hit);
     void join(const PickedPoint& a, const PickedPoint& b);

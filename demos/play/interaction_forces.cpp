@@ -38,6 +38,15 @@ void Interaction::grab(const RayHit& hit) {
     motion_ = Motion::holds;
 }
 
+void Interaction::grab_body(std::size_t body) {
+    if (motion_ != Motion::none || !has_body(session_.world(), body)) return;
+    if (session_.world().scene().bodies[body].motion != scree::Motion::dynamic) return;
+    std::optional<RayHit> hit = hit_under_pointer();
+    if (!hit || hit->body != body) hit = RayHit{.body = body, .point = session_.world().body(body).position};
+    selected_ = body;
+    grab(*hit);
+}
+
 void Interaction::drag() {
     const Ray ray = eye_.ray(x_, y_, extent_);
     const vec3 target = ray.from + ray.along * (hold_->depth / std::max(0.05f, glm::dot(ray.along, eye_.forward())));

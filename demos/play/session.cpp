@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "demos/scenes/demos.h"
 
@@ -66,6 +67,10 @@ void Session::open(const std::string& name) {
     SceneOptions options = options_;
     options.name = name;
     if (const Demo* demo = find_demo(name); !demo || !demo->takes_bodies) options.bodies = 0;
+    open(std::move(options));
+}
+
+void Session::open(SceneOptions options) {
     LoadedScene subject = load_subject(options);
     keep_recording();
     options_ = std::move(options);
@@ -188,6 +193,26 @@ bool Session::undo() {
     replay(farthest_);
     release_held();
     return true;
+}
+
+Session::Moment Session::moment() const {
+    return {input(), world_->save()};
+}
+
+void Session::return_to(const Moment& moment) {
+    const Input& input = moment.input;
+    if (input.scene != input_.scene || input.bodies != input_.bodies || input.seed != input_.seed ||
+        input.start_hash != input_.start_hash)
+        throw std::logic_error("the state is one of another scene");
+    keep_recording();
+    world_->restore(moment.bytes);
+    input_ = input;
+    performed_ = input_.acts.size();
+    farthest_ = world_->steps();
+    kept_.clear();
+    since_kept_ = 0;
+    ++beginnings_;
+    release_held();
 }
 
 // Keeps states regularly, fewer where that takes long or much memory.

@@ -23,6 +23,7 @@ public:
 
     void reset();                        // restarts the scene with a new recording
     void open(const std::string& name);  // another demo or scene file; throws UsageError and keeps the current one
+    void open(SceneOptions options);     // likewise
 
     // Performs a command now and records it; throws like scree::demos::perform, recording nothing.
     void perform(const UserCommand& act);
@@ -35,6 +36,14 @@ public:
     // Takes the last command back, and what followed: goes to the moment before it. Commands of one drag, and equal ones in quick
     // succession, are taken back together. Returns whether there was one.
     bool undo();
+    // A state to return to, with the recording that led to it. Returning throws std::logic_error where the scene is another one,
+    // and ends drags.
+    struct Moment {
+        Input input;
+        std::vector<std::byte> bytes;
+    };
+    Moment moment() const;
+    void return_to(const Moment& moment);
     std::size_t kept_states() const { return kept_.size(); }
     std::size_t kept_bytes() const;
     std::uint64_t farthest_step() const { return std::max(farthest_, world_->steps()); }

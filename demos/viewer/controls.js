@@ -82,39 +82,17 @@ export class Controls {
   }
 
   setUpSettings() {
-    const { player } = this, { scene, palette } = player, { head } = scene;
-    const color = element('color');
-    for (const [value, text] of QUANTITIES) {
-      const usable = palette.scales[value] || ['sleep', 'body', 'plain'].includes(value) || (value === 'own' && scene.bodies.some((body) => body.color));
-      if (usable) color.append(new Option(text, value));
-    }
-    color.value = palette.by;
-    color.addEventListener('change', () => this.chooseColor(color.value));
-    const sky = element('sky');
+    const { player } = this, sky = element('sky'), find = element('find');
+    element('color').addEventListener('change', (event) => this.chooseColor(event.target.value));
     for (const name of Object.keys(SKIES)) sky.append(new Option(name[0].toUpperCase() + name.slice(1), name));
-    sky.value = player.renderer.sky;
     sky.addEventListener('change', () => {
       player.renderer.sky = sky.value;
       player.change();
     });
     element('quality').addEventListener('change', (event) => player.setQuality(event.target.value));
-    for (const name of SHOWN) {
-      const box = element(`show-${name}`);
-      box.checked = player.shows[name];
-      box.disabled = (name === 'contacts' && !head.has.contacts) || (name === 'joints' && scene.joints.length === 0) || (name === 'hits' && !head.has.events);
-      if (box.disabled && name === 'contacts') box.parentElement.append(' (not recorded: run with \u2011\u2011show contacts)');
-      box.addEventListener('change', () => player.show(name, box.checked));
-    }
-    const find = element('find'), names = element('names'), known = new Set();
-    for (const body of scene.bodies) {
-      if (known.size >= 300) break;
-      if (body.name && !known.has(body.name)) {
-        known.add(body.name);
-        names.append(new Option('', body.name));
-      }
-    }
+    for (const name of SHOWN) element(`show-${name}`).addEventListener('change', (event) => player.show(name, event.target.checked));
     find.addEventListener('change', () => {
-      const word = find.value.trim();
+      const word = find.value.trim(), { scene } = player;
       if (!word) return;
       let place = scene.bodies.findIndex((body) => body.name === word);
       if (place < 0 && /^\d+$/.test(word)) place = scene.bodies.findIndex((body) => body.id === Number(word));
@@ -122,12 +100,42 @@ export class Controls {
       if (place < 0) this.say(`no body is called ${word}`); else player.select(place, true);
     });
     element('home').addEventListener('click', () => player.goHome());
-    const { errors } = head, millimetres = (x) => `${numberText(x * 1000, 2)} mm`;
-    element('errors').textContent = `Recorded ${numberText(1 / head.seconds)} times a second and interpolated between. In recorded moments positions are within `
-      + `${millimetres(errors.position)} along each axis, angles within ${numberText(errors.angle * 180 / Math.PI, 2)}°, velocities within `
-      + `${numberText(errors.velocity, 2)} m/s, forces within ${numberText(100 * errors.force, 2)} %.`;
+    this.fillSettings();
+  }
+  // What depends on the scene.
+  fillSettings() {
+    const { player } = this, { scene, palette } = player, { head } = scene;
+    const color = element('color'), names = element('names'), known = new Set();
+    color.replaceChildren();
+    for (const [value, text] of QUANTITIES) {
+      const usable = palette.scales[value] || ['sleep', 'body', 'plain'].includes(value) || (value === 'own' && scene.bodies.some((body) => body.color));
+      if (usable) color.append(new Option(text, value));
+    }
+    color.value = palette.by;
+    element('sky').value = player.renderer.sky;
+    for (const name of SHOWN) {
+      const box = element(`show-${name}`);
+      box.checked = player.shows[name];
+      box.disabled = (name === 'contacts' && !head.has.contacts) || (name === 'joints' && scene.joints.length === 0) || (name === 'hits' && !head.has.events);
+      if (name === 'contacts') box.parentElement.lastChild.textContent = box.disabled ? ' Contacts (not recorded: run with \u2011\u2011show contacts)' : ' Contacts';
+    }
+    names.replaceChildren();
+    for (const body of scene.bodies) {
+      if (known.size >= 300) break;
+      if (body.name && !known.has(body.name)) {
+        known.add(body.name);
+        names.append(new Option('', body.name));
+      }
+    }
+    this.tellErrors();
     element('name').textContent = head.title;
     this.drawLegend();
+  }
+  tellErrors() {
+    const { errors, seconds } = this.player.scene.head, millimetres = (x) => `${numberText(x * 1000, 2)} mm`;
+    element('errors').textContent = `Recorded ${numberText(1 / seconds)} times a second and interpolated between. In recorded moments positions are within `
+      + `${millimetres(errors.position)} along each axis, angles within ${numberText(errors.angle * 180 / Math.PI, 2)}°, velocities within `
+      + `${numberText(errors.velocity, 2)} m/s, forces within ${numberText(100 * errors.force, 2)} %.`;
   }
   chooseColor(value) {
     const { player } = this;
@@ -220,7 +228,7 @@ export class Controls {
     this.drawGraphs();
   }
   drawGraphs() {
-    const { history, frame } = this.player;
+    const { history } = this.player, frame = history?.cursor ?? this.player.frame;
     if (!history) return;
     const at = Math.min(Math.round(frame), history.done - 1);
     for (const series of history.series) {

@@ -3,6 +3,7 @@ import { Camera } from './camera.js';
 import { Palette } from './colors.js';
 import { Controls } from './controls.js';
 import { BodyHistory } from './graphs.js';
+import { openLive } from './live.js';
 import { add, dot, length, rotated, scaled, sub, unit } from './math.js';
 import { Pose } from './pose.js';
 import { isSoftware, Lines, Renderer, WORST_QUALITY } from './renderer.js';
@@ -17,13 +18,8 @@ const SHOWN_FOR = 0.25;  // s, of hits
 class Player {
   constructor(source, canvas) {
     this.source = source;
-    this.scene = source.scene;
-    const { head } = this.scene;
     this.software = isSoftware();
     this.renderer = new Renderer(canvas, this.software);
-    this.renderer.sky = this.renderer.ownSky = head.sky;
-    this.renderer.sun = head.sun;
-    this.palette = new Palette(head);
     this.camera = new Camera();
     this.pose = new Pose();
     this.lines = new Lines();
@@ -36,22 +32,33 @@ class Player {
     this.follows = false;
     this.ownCamera = true;  // the scene's, until the user takes it
     this.history = null;
-    this.shows = { contacts: false, joints: false, velocities: false, hits: false, sleep: false };
-    for (const name of head.show) if (name in this.shows) this.shows[name] = true;
-    this.applyShown();
     this.dirty = true;
     this.quality = 'auto';
     this.paces = [];
     this.drawnFrames = 0;
-    const gravity = length(head.gravity);
-    this.pull = gravity > 0 ? gravity : 9.81;
-    this.markPush = (gravity > 0 ? gravity : 4) / (head.rate * head.substeps);
+    this.takeScene();
     source.onReady = () => this.change();
     canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
     canvas.addEventListener('webglcontextrestored', () => location.reload());
   }
+  // Light, colours and marks as the scene's head tells them.
+  takeScene() {
+    this.scene = this.source.scene;
+    const { head } = this.scene, gravity = length(head.gravity);
+    this.renderer.sky = this.renderer.ownSky = head.sky;
+    this.renderer.sun = head.sun;
+    this.palette = new Palette(head);
+    this.shows = { contacts: false, joints: false, velocities: false, hits: false, sleep: false };
+    for (const name of head.show) if (name in this.shows) this.shows[name] = true;
+    this.applyShown();
+    this.pull = gravity > 0 ? gravity : 9.81;
+    this.markPush = (gravity > 0 ? gravity : 4) / (head.rate * head.substeps);
+  }
   change() { this.dirty = true; }
   get duration() { return this.source.count - 1; }
+  get time() { return this.frame * this.source.seconds; }
+  newHistory(place) { return new BodyHistory(this.source, place, () => this.change()); }
+  addMore() {}  // lines of what a live view has
 
   setPlaying(on) {
     if (on && !this.loops && this.frame >= this.duration) this.frame = 0;
@@ -114,7 +121,7 @@ class Player {
     this.history = null;
     this.selected = place;
     if (place < 0) this.follows = false;
-    else if (!this.scene.bodies[place].plane) this.history = new BodyHistory(this.source, place, () => this.change());
+    else if (!this.scene.bodies[place].plane) this.history = this.newHistory(place);
     this.controls.showPicked();
     if (looks) this.lookAt();
     this.change();
@@ -175,6 +182,7 @@ class Player {
     if (this.shows.joints) this.addJoints(near);
     if (this.shows.velocities) this.addVelocities();
     if (this.shows.hits) this.addHits();
+    this.addMore();
     const dark = document.documentElement.dataset.theme === 'dark';
     renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.jointLines, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
     ++this.drawnFrames;
@@ -280,7 +288,7 @@ class Player {
   }
 
   addHits() {
-    const seconds = this.frame * this.source.seconds, { events } = this.scene;
+    const seconds = this.time, { events } = this.scene;
     let low = 0, high = events.length;
     while (low < high) {
       const middle = (low + high) >> 1;
@@ -306,7 +314,9 @@ class Player {
 }
 
 async function begin() {
-  const source = new RecordedSource(document.querySelectorAll('script[type="application/x-scree"]'));
+  const blocks = document.querySelectorAll('script[type="application/x-scree"]');
+  if (blocks[0]?.dataset.kind === 'live') return openLive(Player);
+  const source = new RecordedSource(blocks);
   await source.open();
   const player = new Player(source, document.getElementById('view'));
   player.controls = new Controls(player);

@@ -177,6 +177,15 @@ export class Renderer {
     this.parts = parts;
   }
 
+  // Meshes of a scene that is over.
+  forgetScene() {
+    const { gl, levels } = this, [first] = levels[FIRST_MESH]?.[0]?.slice(1) ?? [this.drawn.length];
+    for (const { array } of this.drawn.splice(first)) gl.deleteVertexArray(array);
+    levels.length = Math.min(levels.length, FIRST_MESH);
+    this.shapesOfMeshes = 0;
+    this.sceneVersion = -1;
+  }
+
   // Words for bodies, kept from frame to frame.
   room(count) {
     const { gl, instances } = this, rows = Math.max(1, Math.ceil(count / ROW));

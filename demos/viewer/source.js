@@ -1,6 +1,6 @@
 // Where frames come from. A source has `scene`, `count` (frames so far), `seconds` (from one to the next), `now` and `before` (two
 // moments one after the other), and show(frame): whether `before` and `now` are those about that frame; if not it fetches them, and
-// calls `onReady`. A live source will have the same, and a growing `count`.
+// calls `onReady`. A live source (live.js) has the same, and a growing `count`.
 import { bytesOfBase64, chunksOf, unpacked } from './bytes.js';
 import { FrameDecoder } from './frames.js';
 import { Scene } from './scene.js';

@@ -26,7 +26,7 @@ struct Program {
     int status = 0;
     Program() {
         app.add_flag("--version");
-        for (auto add : {demos::add_list, demos::add_devices, demos::add_run, demos::add_sweep, demos::add_view,
+        for (auto add : {demos::add_list, demos::add_devices, demos::add_run, demos::add_sweep, demos::add_view, demos::add_serve,
                          demos::add_compare, demos::add_check, demos::add_validate, demos::add_bench, demos::add_export})
             add(app, status);
     }

@@ -235,6 +235,35 @@ TEST_CASE("going back begins with a state that was kept, also of a moment when a
     REQUIRE(worlds == 2);
 }
 
+TEST_CASE("a session returns to a moment that was taken, with the same bits and its recording") {
+    Session session(options_of("stack"), on_cpu);
+    for (int i = 0; i < 10; ++i) session.step();
+    session.perform(Explode{vec3(0.5f, 0.5f, 0.5f), 3, 4});
+    session.perform(Grab{0, 5, vec3(0), session.world().body(5).position + vec3(0, 1, 0)});
+    for (int i = 0; i < 10; ++i) session.step();
+    const Session::Moment moment = session.moment();
+    const std::uint64_t hash = session.world().state_hash();
+    session.perform(Add{Body{.shape = Sphere{0.3f}, .position = vec3(0, 20, 0)}});
+    for (int i = 0; i < 20; ++i) session.step();
+    REQUIRE(session.world().state_hash() != hash);
+    session.go_to(5);  // what was done after it is a future that is left
+    session.perform(Explode{vec3(0), 1, 1});
+    session.return_to(moment);
+    CHECK(session.world().steps() == 20);
+    CHECK(session.world().bodies_there() == session.subject().scene.bodies.size());
+    // What was held is let go, and the recording says so.
+    for (int i = 0; i < 20; ++i) session.step();
+    const Input input = session.input();
+    Session again(options_of("stack"), on_cpu);
+    require_start(input, again.world());
+    for (perform_due(input, again.world()); again.world().steps() < input.steps; perform_due(input, again.world()))
+        again.world().step();
+    CHECK(again.world().state_hash() == session.world().state_hash());
+    session.open("wall");
+    CHECK_THROWS_AS(session.return_to(moment), std::logic_error);
+    CHECK(session.world().steps() == 0);
+}
+
 TEST_CASE("an act that the world refuses is not recorded") {
     Session session(options_of("stack"), on_cpu);
     REQUIRE_THROWS_AS(session.perform(Drag{0, vec3(0)}), std::out_of_range);

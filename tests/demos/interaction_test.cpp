@@ -471,3 +471,32 @@ TEST_CASE("what the world refuses becomes a message") {
     REQUIRE_THAT(played.hands.message(), Catch::Contains("unknown demo"));
     REQUIRE(played.session.options().name == "stack");
 }
+
+TEST_CASE("a body is grabbed by its number, where the pointer is or by its centre") {
+    Played played;
+    played.pass(0.1);
+    played.at(host::EventKind::moved, played.pixel_of(top));
+    played.hands.grab_body(top);
+    REQUIRE(played.hands.held() == top);
+    played.hands.let_all_go();
+    CHECK_FALSE(played.hands.held());
+    played.at(host::EventKind::moved, {1, 1});  // the sky: the body has left the pointer meanwhile
+    played.hands.grab_body(top);
+    CHECK(played.hands.held() == top);
+    CHECK(played.hands.selected() == top);
+    played.hands.let_all_go();
+    played.hands.grab_body(0);  // the ground
+    CHECK_FALSE(played.hands.held());
+    played.hands.grab_body(100000);
+    CHECK_FALSE(played.hands.held());
+}
+
+TEST_CASE("the pointer points at a picture from elsewhere") {
+    Played played;
+    const Viewpoint view{vec3(5, 9, 4), played.session.world().body(top).position, 35};
+    played.hands.look_from(view, {800, 800});
+    played.at(host::EventKind::moved, {400, 400});
+    const std::optional<RayHit> hit = played.hands.hovered();
+    REQUIRE(hit);
+    CHECK(hit->body == top);
+}

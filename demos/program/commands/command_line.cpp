@@ -27,6 +27,7 @@ constexpr const char* examples = R"(Examples:
   scree run avalanche --frames out --video out.mp4      frames and a video, without a display
   scree sweep wall --set seed=1..20 -o walls.csv        many runs into one table
   scree view wall                                       a window: grab and throw bodies
+  scree serve wall                                      the same in a browser, live
   scree run pile --bodies 10k --steps 300 --report -    a report as JSON
   scree export wall -o wall.json                        a scene as a file, to edit
   scree run wall.json --seconds 5                       and to run
@@ -90,6 +91,7 @@ int run_command_line(int argc, char** argv) {
     add_run(program, status);
     add_sweep(program, status);
     add_view(program, status);
+    add_serve(program, status);
     add_compare(program, status);
     add_check(program, status);
     add_validate(program, status);

@@ -12,6 +12,7 @@ void add_devices(CLI::App& program, int& status);
 void add_run(CLI::App& program, int& status);
 void add_sweep(CLI::App& program, int& status);
 void add_view(CLI::App& program, int& status);
+void add_serve(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
 void add_check(CLI::App& program, int& status);
 void add_validate(CLI::App& program, int& status);

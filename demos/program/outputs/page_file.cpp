@@ -30,14 +30,12 @@ std::function<host::Camera(double)> camera_of(const PictureOptions& options, con
 
 }  // namespace
 
-std::unique_ptr<PageRecording> make_page(const PictureOptions& options, const CopiesShown& shown, const LoadedScene& subject,
-                                         World& world) {
-    if (!PageRecording::is_possible()) throw UsageError("--html: " + PageRecording::why_not());
+PageOptions page_options(const PictureOptions& options, const LoadedScene& subject, World& world, bool rehearses) {
     PageOptions page;
     page.title = subject.title();
     page.fps = options.fps;
     page.style = style_of(options, subject.style);
-    page.scale = scale_of(page.style, subject, world.settings());
+    page.scale = scale_of(page.style, subject, world.settings(), rehearses);
     for (const char* word : {"momentum", "speed", "spin", "kinetic-energy", "angular-momentum", "height", "contact-impulse"})
         page.ranges.emplace_back(host::color_by_named(word).value(), color_range(subject, world.settings(), word, false));
     host::CanvasOptions light;
@@ -48,6 +46,13 @@ std::unique_ptr<PageRecording> make_page(const PictureOptions& options, const Co
     page.camera = camera_of(options, subject, world);
     page.events = world.runner().ranks() == nullptr;
     page.contacts = shows(page.style, Overlay::contacts) || world.scene().bodies.size() <= most_with_contacts;
+    return page;
+}
+
+std::unique_ptr<PageRecording> make_page(const PictureOptions& options, const CopiesShown& shown, const LoadedScene& subject,
+                                         World& world) {
+    if (!PageRecording::is_possible()) throw UsageError("--html: " + PageRecording::why_not());
+    PageOptions page = page_options(options, subject, world);
     page.shown = shown;
     return std::make_unique<PageRecording>(options.html, world, std::move(page));
 }

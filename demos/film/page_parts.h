@@ -1,0 +1,31 @@
+// What recordings and live streams tell in the same way: their head, units, events, and the packing of blocks.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "demos/film/chunk_bytes.h"
+#include "demos/film/frame_encoder.h"
+#include "demos/film/page_recording.h"
+#include "demos/film/world_chunks.h"
+
+namespace scree::demos {
+
+// A block as it is sent: 1, and the chunks as a zlib stream.
+std::string packed_block(const std::string& chunks);
+// Likewise of one frame, whose columns have few words that come again: by runs and Huffman codes alone, which takes half the time
+// and is smaller.
+std::string packed_frame(const std::string& chunks);
+
+// For frames that are `seconds` apart.
+FrameUnits units_of(const World& world, const PageOptions& options, double seconds);
+
+// The JSON of the chunk "head". `start`: the world's time at the first frame, s.
+std::string head_of(World& world, const PageOptions& options, const FrameUnits& units, double seconds, double start);
+
+// Asks the world for what add_events tells.
+void ask_for_events(World& world);
+// Appends the strongest hits and everything that broke since the last call, without their number, which it returns.
+std::size_t add_events(ChunkBytes& to, World& world, const WorldChunks& chunks, double start);
+
+}  // namespace scree::demos
