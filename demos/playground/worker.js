@@ -12,7 +12,7 @@ const CHECKED_STEPS = 12, CHECKED_BODIES = 300;      // as of demos/records/hash
 let scree, counted = new Set();
 let world, live, drawn, placeOf, views, thrown, grips, settings, buffers = [], rate = 60;
 let playing = false, speed = 1, due = 0, timer = null, wantsFrame = true;
-let spent = [], done = 0, lateSteps = 0;
+let spent = [], lateSteps = 0;
 const tell = (kind, more = {}, moved = []) => postMessage({ kind, ...more }, moved);
 
 function take(chunks) {
@@ -72,7 +72,6 @@ function step(count) {
     world.step();
     spent.push(performance.now() - begun);
     if (spent.length > 60) spent.shift();
-    ++done;
   }
 }
 // As many steps as are due; what cannot be caught up with is left out, so that the world is slow rather than the page.
@@ -123,7 +122,7 @@ const asked = {
     world = made;
     live = world.record({ live: 1, fps: 60, contacts: -1 });
     drawn = new Drawn();
-    [thrown, grips, spent, done, lateSteps] = [[], new Map(), [], 0, 0];
+    [thrown, grips, spent, lateSteps] = [[], new Map(), [], 0];
     settings = world.get('settings');
     rate = settings.rate;
     const gravity = Array.from(world.gravity());
@@ -151,7 +150,8 @@ const asked = {
   },
   set({ given }) {
     apply(given);
-    world.wake(Array.from({ length: world.count('bodies') }, (_, i) => i).filter((_, i) => placeOf[i] >= 0));
+    const { exists } = world.read(['exists']);
+    world.wake(Array.from(exists.keys()).filter((body) => exists[body]));
   },
   // The oldest of its shape flies again when there are many.
   throw({ shape, size, position, velocity }) {
@@ -222,7 +222,7 @@ const asked = {
   },
   back({ buffer }) {
     if (buffers.length < BUFFERS) buffers.push(buffer);
-    if (wantsFrame && world && (playing || done === 0 || world.steps === done)) send();
+    if (wantsFrame && world) send();
   },
 };
 

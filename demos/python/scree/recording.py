@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import html
 import os
 import sys
 import typing
@@ -102,9 +101,10 @@ class View:
             parts["image/png"] = base64.b64encode(picture).decode()
             image = (f'<img alt="The world at the end of the recording" src="data:image/png;base64,{parts["image/png"]}" '
                      'style="position: absolute; width: 100%; height: 100%; object-fit: cover">')
+        quoted = page.replace("&", "&amp;").replace('"', "&quot;")
         parts["text/html"] = (f'<div style="position: relative; width: 100%; height: {self._height}px">{image}<iframe title="A recording of scree" '
                               'sandbox="allow-scripts" style="position: absolute; width: 100%; height: 100%; border: 0" allowfullscreen '
-                              f'srcdoc="{html.escape(page)}"></iframe></div>')
+                              f'srcdoc="{quoted}"></iframe></div>')
         return parts
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Dict[str, Any]:
