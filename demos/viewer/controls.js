@@ -159,8 +159,14 @@ export class Controls {
     for (let most = 6; most > 1; --most) {
       values = scale.ticks(most);
       texts = values.map((value) => numberText(value));
-      const apart = values.every((value, i) => i === 0 || (scale.place(value) - scale.place(values[i - 1])) * width
-        > 4.2 * (texts[i].length + texts[i - 1].length) + 6);
+      // Labels as they will lie, those at the ends within the bar.
+      let end = -Infinity;
+      const apart = values.every((value, i) => {
+        const half = 3.9 * texts[i].length, at = scale.place(value), middle = at < 0.04 ? half : at > 0.96 ? width * at - half : width * at;
+        const free = middle - half > end + 6;
+        end = middle + half;
+        return free;
+      });
       if (apart) break;
     }
     ticks.replaceChildren(...values.map((value, i) => {

@@ -163,6 +163,10 @@ const SHAPES = {
     own = corner * size;
     normal = normalize(corner_normal / size);
   }`,
+  mesh: `void shape(vec4 q, out vec3 own, out vec3 normal) {
+    own = corner;
+    normal = corner_normal;
+  }`,
 };
 
 const BODY_VERTEX = (shape, wants = '') => wants ? LEAN_VERTEX(shape, wants) : `${HEAD}${BODY_IN}
@@ -257,9 +261,13 @@ void main() {
 }`,
   solid: `${BODY_OUT}
 void main() {
+    vec2 halves = clamp(own.xz / (0.02 * extent.x), -1.0, 1.0);
+    done(0.9 + 0.1 * halves.x * halves.y, turned(turn, normalize(normal)), 0.7);
+}`,
+  mesh: `${BODY_OUT}
+void main() {
     vec3 local = normalize(normal);
-    vec2 halves = clamp(own.xz / 0.02, -1.0, 1.0);
-    float tone = 0.9 + 0.1 * halves.x * halves.y;
+    float tone = 0.9 + 0.05 * local.x;
     if (edge.y > 0.0) {
         float width = pixel_at(point), bevel = max(edge.y, 1.2 * width), shown = clamp(edge.y / (1.8 * width), 0.0, 1.0);
         float lift = clamp(1.0 - edge.x / bevel, 0.0, 1.0);

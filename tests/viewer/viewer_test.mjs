@@ -55,6 +55,9 @@ function colorsOf(pixels) {
   for (let y = 0; y < pixels.height; y += 3) for (let x = 0; x < pixels.width; x += 3) found.add(pixels.at(x, y).map((c) => c >> 4).join());
   return found.size;
 }
+// Where a body's middle is on the page.
+const middleOf = (page, place) => page.evaluate(`(() => { const p = window.scree, view = document.getElementById('view');
+  return p.camera.pixelOf(p.positionOf(${place})).map((x) => x * view.clientWidth / p.camera.width); })()`);
 const rectangleOf = (page, id) => page.evaluate(`(() => { const r = document.getElementById('${id}').getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; })()`);
 
 const twoBalls = {
@@ -98,7 +101,7 @@ test('a pile is shown, with the colours of its legend, and plays', async () => {
 
 test('names are text, also those that would be elements; a click tells of a body', async () => {
   await on(recordScene('balls', twoBalls, ['--seconds', '2']), {}, async (page) => {
-    const at = await page.evaluate(`(() => { const p = window.scree; return p.camera.pixelOf(p.positionOf(1)); })()`);
+    const at = await middleOf(page, 1);
     await page.click(at[0], at[1]);
     await page.until('window.scree.selected === 1');
     assert.equal((await page.state()).picked, WICKED);
@@ -220,8 +223,7 @@ test('a small screen has all controls in reach, and a tap tells of a body', asyn
       if (['play', 'loop', 'more', 'ask'].includes(id)) assert.ok(right - left >= 40 && bottom - top >= 40, `${id} is too small to touch`);
     }
     assert.equal(await page.evaluate('document.documentElement.scrollWidth'), 360);
-    const at = await page.evaluate(`(() => { const p = window.scree, i = p.scene.bodies.findIndex((b) => b.mass > 0), s = p.camera.width / 360;
-      return p.camera.pixelOf(p.positionOf(i)).map((x) => x / s); })()`);
+    const at = await middleOf(page, await page.evaluate('window.scree.scene.bodies.findIndex(({ mass }) => mass > 0)'));
     await page.tap(at[0], at[1]);
     await page.until('window.scree.selected >= 0');
     const [, top, , bottom] = await rectangleOf(page, 'picked');
@@ -234,9 +236,9 @@ test('light and dark differ, by the system and by choice', async () => {
   const page = async (dark) => {
     let ink;
     await on(url, { dark }, async (opened) => {
-      ink = await opened.evaluate('getComputedStyle(document.body).backgroundColor');
+      ink = await opened.evaluate('getComputedStyle(document.getElementById('bar')).backgroundColor');
       const chosen = await opened.evaluate(`(() => { const t = document.getElementById('theme'); t.value = '${dark ? 'light' : 'dark'}';
-        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.body).backgroundColor;
+        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.getElementById('bar')).backgroundColor;
         t.value = 'auto'; t.dispatchEvent(new Event('change')); return ink; })()`);
       assert.notEqual(chosen, ink);
     });
@@ -257,7 +259,7 @@ test('all shapes and a compound are drawn, each where the program has it', async
       ...(i >= shapes.length ? { motion: 'fixed' } : {}) })) };
   await on(recordScene('shapes', scene, ['--steps', '4']), {}, async (page) => {
     for (let i = 0; i < scene.bodies.length; ++i) {
-      const at = await page.evaluate(`(() => { const p = window.scree; return p.camera.pixelOf(p.positionOf(${i})); })()`);
+      const at = await middleOf(page, i);
       await page.click(at[0], at[1]);
       await page.until(`window.scree.selected === ${i}`, 4000);
       assert.equal((await page.state()).picked, `shape ${i}`);

@@ -342,6 +342,11 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
     finish_pictures(pictures, report);
     records.finish();  // an interrupted run has them, too
+    if (const std::optional<PageFigures> page = records.page()) {
+        report.page_frames = page->frames;
+        report.page_bytes = page->bytes;
+        report.seconds_encoding_page = page->seconds_encoding;
+    }
     finishing.reset();
     if (options.timeline) world.set_timeline(nullptr);
     if (options.timeline) options.timeline->finish();

@@ -80,6 +80,11 @@ nlohmann::ordered_json ranks_of(const RunReport& r) {
             {"peak_memory_bytes", memory}};
 }
 
+nlohmann::ordered_json page_of(const RunReport& r) {
+    if (r.page_frames == 0) return nullptr;
+    return {{"frames", r.page_frames}, {"bytes", r.page_bytes}, {"seconds", r.seconds_encoding_page}};
+}
+
 nlohmann::ordered_json copies_of(const RunReport& r) {
     if (r.copies == 0) return {};
     return {{"count", r.copies},
@@ -155,6 +160,7 @@ std::string json_of(const RunReport& r) {
         {"seconds_total", r.seconds_total},
         {"frames", r.frames},
         {"frames_per_second", r.seconds_running > 0 ? r.frames / r.seconds_running : 0.0},
+        {"page", page_of(r)},
         {"seconds",
          {{"running", r.seconds_running},
           {"simulate", r.seconds_simulating},
@@ -208,6 +214,11 @@ std::string summary_of(const RunReport& r) {
              r.distinct == 1
                  ? fmt::format("{}, each {}; {:.4g} s of them simulated a second", r.copies, hash_text(r.copy_hash), pace_of(r))
                  : fmt::format("{}, in {} states; {:.4g} s of them simulated a second", r.copies, r.distinct, pace_of(r)));
+    if (r.page_frames > 0) {
+        line("page",
+             fmt::format("{} frames, {:.3g} MB, {:.2g} ms a frame", r.page_frames, static_cast<double>(r.page_bytes) / 1e6,
+                         r.seconds_encoding_page * 1e3 / static_cast<double>(r.page_frames)));
+    }
     if (r.frames > 0) {
         line("pictures",
              fmt::format("{}, {} in all: {} simulating, {} drawing, {} waiting for encoders; {:.3g} a second", r.frames,

@@ -39,6 +39,9 @@ struct RunReport {
     std::uint64_t buffer_growths = 0, state_hash = 0;
     std::size_t buffer_bytes = 0, peak_memory_bytes = 0;
     int frames = 0;
+    std::size_t page_frames = 0;  // of --html; likewise below
+    std::uint64_t page_bytes = 0;
+    double seconds_encoding_page = 0;
     // Wall time of the run without set-up, s, and its parts:
     double seconds_running = 0;                                               // parts below, and recording, script, statistics
     double seconds_simulating = 0, seconds_drawing = 0, seconds_waiting = 0;  // the last one: waiting for the encoders
