@@ -15,6 +15,7 @@ const HASHES = new Map(record.split('\n').filter((line) => line && line[0] !== '
 const STEPS = /after (\d+) steps/.exec(record)[1];
 const GRAVITIES = [[1.62, 'Moon'], [3.72, 'Mars'], [9.81, 'Earth'], [24.79, 'Jupiter']];
 const HAND = 'pointer', KEYS = 'keys';  // what grabs
+const MOST_UNASKED = 1000;              // bodies of a demo that has more by default
 const FILE = /^[\w-][\w.-]*\.json$/;    // beside this page
 
 class Playground {
@@ -96,6 +97,7 @@ class Playground {
     if (this.frame) this.tell('back', { buffer: this.frame.buffer }, [this.frame.buffer]);
     this.frame = null;
     this.bodies = bodies;
+    this.rates = [];
     if (this.given.gravity === undefined) {
       this.sceneGravity = -gravity[1];
       element('gravity').value = this.sceneGravity;
@@ -198,7 +200,7 @@ class Playground {
     if (this.file?.name) to.set('scene', this.file.name);
     else if (source?.demo) to.set('demo', source.demo);
     else if (source?.heap) to.set('heap', source.heap.shape);
-    if (source?.bodies) to.set('count', source.bodies);
+    if (source?.bodies && this.ownCount) to.set('count', source.bodies);
     if (source?.heap) to.set('count', source.heap.count);
     for (const key of ['gravity', 'friction']) if (this.given[key] !== undefined) to.set(key, this.given[key]);
     for (const [key, id, usual] of [['throw', 'missile', 'sphere'], ['size', 'size', '0.5'], ['pace', 'pace', '18'], ['sky', 'sky', ''], ['speed', 'speed', '1']])
@@ -223,14 +225,14 @@ class Playground {
     const name = element('scene').value, count = Number(element('count').value);
     if (name === '(heap)') return { heap: { shape: element('shape').value, count } };
     const demo = this.demos.find((one) => one.name === name);
-    return demo.counted && this.ownCount ? { demo: name, bodies: count } : { demo: name };
+    return demo.count ? { demo: name, bodies: this.ownCount ? count : Math.min(demo.count, MOST_UNASKED) } : { demo: name };
   }
   async open() {
     const source = this.chosen(), name = element('scene').value, demo = this.demos.find((one) => one.name === name);
     const heap = name === '(heap)' && !this.file;
     element('name').textContent = this.file ? this.file.name || 'A pasted scene' : heap ? 'A heap' : name[0].toUpperCase() + name.slice(1);
     element('line').textContent = this.file || heap ? '' : demo.line;
-    element('count').disabled = Boolean(this.file) || !(heap || demo.counted);
+    element('count').disabled = Boolean(this.file) || !(heap || demo.count);
     element('shape-row').hidden = !heap;
     for (const id of ['bits-here', 'bits-native']) element(id).textContent = '…';
     element('bits-verdict').textContent = '';
@@ -245,7 +247,7 @@ class Playground {
     }
     if (this.colorAsked) this.chooseColor(this.colorAsked);
     this.colorAsked = null;
-    if (!this.ownCount && !heap) element('count').value = opened.bodies;
+    if (!heap) element('count').value = source.bodies ?? opened.bodies;
     this.showNumbers();
     this.write();
     this.tell('check', { source });
@@ -406,7 +408,7 @@ class Playground {
     if (this.told && now - this.told < 200) return;
     this.told = now;
     const seconds = (now - rates[0][0]) / 1000;
-    this.stepsPerSecond = this.playing && seconds > 0.3 ? (frame.steps - rates[0][1]) / seconds : 0;
+    this.stepsPerSecond = this.playing && seconds > 0.3 ? Math.max(0, frame.steps - rates[0][1]) / seconds : 0;
     const bodies = this.pose.shown;
     element('facts').textContent = `${frame.time.toFixed(2)} s · step ${frame.steps.toLocaleString('en')} · ${bodies.toLocaleString('en')} ${bodies === 1 ? 'body' : 'bodies'}`
       + (frame.sleepers ? ` · ${frame.sleepers.toLocaleString('en')} asleep` : '');

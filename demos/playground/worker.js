@@ -9,7 +9,7 @@ import { SHAPES } from './shapes.js';
 const MOST_THROWN = 60, BUFFERS = 2, LONGEST = 0.1;  // s, of time that is caught up with
 const CHECKED_STEPS = 12, CHECKED_BODIES = 300;      // as of demos/records/hashes.txt
 
-let scree, counted = new Set();
+let scree;
 let world, live, drawn, placeOf, views, thrown, grips, settings, buffers = [], rate = 60;
 let playing = false, speed = 1, due = 0, timer = null, wantsFrame = true;
 let spent = [], lateSteps = 0;
@@ -233,11 +233,9 @@ onmessage = async ({ data }) => {
       scree = await load({ threads: data.threads, folder: data.folder, print: (line) => lines.push(line), printError: (line) => lines.push(line) });
       for (let i = 0; i < BUFFERS; ++i) buffers.push(new ArrayBuffer(0));
       scree.command(['list']);
-      for (const line of lines) {
-        const words = line.trim().split(/\s+/);
-        if (words.includes('--bodies')) counted.add(words[0]);
-      }
-      const demos = scree.describe('demos').map(([name, line]) => ({ name, line, counted: counted.has(name) }));
+      // Those whose number of bodies may be chosen, with the usual one.
+      const counts = new Map(lines.map((line) => line.trim().split(/\s+/)).filter(([, , word]) => word === '--bodies').map(([name, count]) => [name, Number(count)]));
+      const demos = scree.describe('demos').map(([name, line]) => ({ name, line, count: counts.get(name) ?? 0 }));
       return tell('ready', { version: scree.version, threads: scree.threads, demos });
     }
     await asked[data.kind](data);
