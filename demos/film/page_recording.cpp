@@ -324,7 +324,7 @@ void PageRecording::Impl::add_frame(std::string& to, bool whole) {
     const std::vector<BodyMoment>& moments = chunks.look(world);
     frame.u8((whole ? 1u : 0u) | (options.contacts ? 2u : 0u) | (joints ? 4u : 0u) | (options.camera ? 8u : 0u));
     encoder.encode(frame, moments, whole);
-    if (options.contacts) chunks.add_contacts(frame, world, units, encoder.followers());
+    if (options.contacts) chunks.add_contacts(frame, world, units, encoder.followers(), whole);
     if (joints) chunks.add_joints(frame, world, units, whole);
     if (options.camera) {
         const host::Camera camera = options.camera(world.time());

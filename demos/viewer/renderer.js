@@ -421,8 +421,8 @@ export class Renderer {
     }
   }
 
-  // `pose`: of bodies, in metres of the world; `selected`: place of a body, or -1; `lines`: from Lines.
-  draw(camera, scene, pose, selected, lines, accent) {
+  // `pose`: of bodies, in metres of the world; `selected`: place of a body, or -1; `lines`, `joints`: Lines.
+  draw(camera, scene, pose, selected, lines, joints, accent) {
     const { gl, canvas } = this, quality = QUALITIES[this.quality];
     if (gl.isContextLost()) return;
     this.takeScene(scene);
@@ -463,7 +463,8 @@ export class Renderer {
     this.set(this.program('sky'), uniforms);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     if (selected >= 0) this.drawOutline(selected, uniforms, accent);
-    this.drawLines(lines, uniforms);
+    this.drawLines(joints, uniforms, true);
+    this.drawLines(lines, uniforms, false);
     gl.bindVertexArray(null);
   }
   viewUniforms(camera, view) {
@@ -518,16 +519,24 @@ export class Renderer {
     gl.enable(gl.DEPTH_TEST);
   }
 
-  drawLines({ data, count }, uniforms) {
+  // `faintly`: also what bodies hide.
+  drawLines({ data, count }, uniforms, faintly) {
     if (count === 0) return;
     const { gl, lines } = this;
     gl.bindVertexArray(lines.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, data.subarray(0, 12 * count), gl.STREAM_DRAW);
-    this.set(this.program('line'), uniforms);
+    this.set(this.program('line'), { ...uniforms, strength: 1 });
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
+    if (faintly) {
+      this.set(this.program('line'), { strength: 0.3 });
+      gl.depthFunc(gl.GREATER);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+      gl.depthFunc(gl.LEQUAL);
+      this.set(this.program('line'), { strength: 1 });
+    }
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     gl.depthMask(true);
     gl.disable(gl.BLEND);

@@ -236,9 +236,9 @@ test('light and dark differ, by the system and by choice', async () => {
   const page = async (dark) => {
     let ink;
     await on(url, { dark }, async (opened) => {
-      ink = await opened.evaluate('getComputedStyle(document.getElementById('bar')).backgroundColor');
+      ink = await opened.evaluate('getComputedStyle(document.getElementById("bar")).backgroundColor');
       const chosen = await opened.evaluate(`(() => { const t = document.getElementById('theme'); t.value = '${dark ? 'light' : 'dark'}';
-        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.getElementById('bar')).backgroundColor;
+        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.getElementById("bar")).backgroundColor;
         t.value = 'auto'; t.dispatchEvent(new Event('change')); return ink; })()`);
       assert.notEqual(chosen, ink);
     });
