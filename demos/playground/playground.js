@@ -27,6 +27,7 @@ class Playground {
     this.camera = new Camera();
     this.pose = new Pose();
     this.lines = new Lines();
+    this.none = new Lines();  // of joints
     this.scene = null;
     this.selected = -1;
     this.grabs = null;        // { hand, place, target }
@@ -370,7 +371,7 @@ class Playground {
   // ---- pictures
   tick(now) {
     requestAnimationFrame((time) => this.tick(time));
-    if (!this.dirty || !this.frame || this.frame.count > this.scene.bodies.length) return;
+    if (!this.dirty || !this.frame || this.frame.count !== this.scene.bodies.length) return;  // bodies come before the frame that has them
     this.dirty = false;
     const { renderer, pose, scene, palette, frame } = this;
     pose.shown = 0;
@@ -379,7 +380,7 @@ class Playground {
     this.lines.clear();
     if (this.grabs?.place >= 0) this.addGrip();
     const dark = document.documentElement.dataset.theme === 'dark';
-    renderer.draw(this.camera, scene, pose, this.selected, this.lines, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
+    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.none, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
     if (this.software) renderer.gl.finish();
     ++this.pictures;
     this.govern(now);
