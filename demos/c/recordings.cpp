@@ -13,7 +13,7 @@ namespace scree::c {
 
 namespace {
 
-constexpr std::size_t most_with_contacts = 1000;  // bodies of which all contacts are recorded unasked
+constexpr std::size_t most_with_contacts = 2000;  // bodies of which all contacts are recorded unasked
 
 demos::PageOptions page_options(WorldObject& object, const scree_record_options& wanted) {
     if (!(wanted.fps >= 0 && wanted.fps <= 1e6)) refuse("fps: must be between 0 and 1e6 frames a second");

@@ -535,7 +535,7 @@ typedef struct scree_record_options {
     const char* look_json;   /* as of scree_picture */
     double fps;              /* frames a second of time, in whole steps; 0: 30 */
     size_t copy;             /* SCREE_ALL_COPIES: all, one beside the other */
-    int contacts;            /* 1: recorded, -1: not; 0: of at most 1000 bodies */
+    int contacts;            /* 1: recorded, -1: not; 0: of at most 2000 bodies */
     int events;              /* 1: hits and breaks, which takes the world's events */
     int live;                /* 1: nothing is kept: for scree_recording_take */
 } scree_record_options;

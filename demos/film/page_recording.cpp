@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/picture_style_fields.h"
@@ -27,9 +28,10 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view place_of_title = "<title>scree</title>", place_of_data = "<!-- recording -->";
-constexpr double seconds_of_block = 1.5;         // what a reader reads again to get to a moment
-constexpr std::size_t most_of_block = 4u << 20;  // bytes before compression
-constexpr std::size_t most_hits = 32;            // of a frame, the strongest
+constexpr double seconds_of_block = 1.5;          // what a reader reads again to get to a moment
+constexpr std::size_t most_of_block = 4u << 20;   // bytes before compression
+constexpr std::size_t most_of_events = 1u << 18;  // likewise, of all events
+constexpr std::size_t most_hits = 32;             // of a frame, the strongest
 
 std::string base64(std::string_view bytes) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -151,7 +153,7 @@ struct PageRecording::Impl {
     std::string block{};  // frames that are not written yet
     std::size_t first_of_block = 0, frames = 0;
     bool block_is_whole = false, has_told_head = false;
-    ChunkBytes events{};  // all
+    ChunkBytes events{};  // that are not written yet
     std::size_t event_count = 0;
     std::uint64_t recorded = std::numeric_limits<std::uint64_t>::max();  // at this step
     double seconds_encoding = 0;
@@ -193,6 +195,20 @@ struct PageRecording::Impl {
         put(pending());
         block.clear();
         first_of_block = frames;
+    }
+
+    std::string pending_events() const {
+        ChunkBytes all;
+        all.count(event_count);
+        all.append(events);
+        std::string chunk;
+        append_chunk(chunk, "evnt", all);
+        return element("events", chunk);
+    }
+    void put_events() {
+        put(pending_events());
+        event_count = 0;
+        events = {};
     }
 
     json head() const;
@@ -263,13 +279,8 @@ void PageRecording::Impl::add_head(std::string& to) const {
 }
 
 std::string PageRecording::Impl::end() const {
-    ChunkBytes all;
-    all.count(event_count);
-    all.append(events);
-    std::string chunk;
-    append_chunk(chunk, "evnt", all);
     const std::string_view page = viewer_page();
-    return element("events", chunk).append(page.substr(page.find(place_of_data) + place_of_data.size()));
+    return pending_events().append(page.substr(page.find(place_of_data) + place_of_data.size()));
 }
 
 // The strongest hits, and everything that broke, since the last frame.
@@ -293,6 +304,7 @@ void PageRecording::Impl::take_events() {
         events.vector(event.point);
         ++event_count;
     }
+    if (events.bytes.size() > most_of_events) put_events();
 }
 
 void PageRecording::Impl::record() {

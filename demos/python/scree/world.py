@@ -969,7 +969,7 @@ class World(Bodies[_native.World]):
         It is kept in memory: 1.6 MB for a minute of a thousand bodies that come to rest. fps: frames a second of time, in whole steps.
         color and look (color_map, color_scale, color_range, show, sky, sun_azimuth, sun_elevation): how the page begins, as of render().
         copy: of the scene, in a world of several; by default all, side by side. contacts: whether the points that touch are recorded,
-        None: of at most 1,000 bodies. events: hits and breaks, on the page's time line; they are then lost to events().
+        None: of at most 2,000 bodies. events: hits and breaks, on the page's time line; they are then lost to events().
         Raises RuntimeError where the library has no viewer.
         """
         require_keys(look, _LOOK[:-5], "record")
