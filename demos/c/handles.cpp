@@ -64,7 +64,7 @@ const void* issue(HandleKind kind, std::shared_ptr<void> object) {
 }
 
 std::shared_ptr<void> held(HandleKind kind, const void* handle) {
-    static constexpr std::array names{"scene", "world", "view", "export"};
+    static constexpr std::array names{"scene", "world", "view", "export", "recording"};
     const std::string name = names[static_cast<std::size_t>(kind)];
     if (handle == nullptr) throw Failure(SCREE_BAD_HANDLE, "the handle of a " + name + " is null");
     Table& all = table();

@@ -11,8 +11,9 @@ struct SceneObject;
 struct WorldObject;
 struct ViewObject;
 struct ExportObject;
+struct RecordingObject;
 
-enum class HandleKind { scene, world, view, export_file };
+enum class HandleKind { scene, world, view, export_file, recording };
 
 // All of these may be called by several threads.
 const void* issue(HandleKind kind, std::shared_ptr<void> object);
@@ -31,6 +32,9 @@ inline scree_view* handle_of(std::shared_ptr<ViewObject> object) {
 inline scree_export* handle_of(std::shared_ptr<ExportObject> object) {
     return static_cast<scree_export*>(const_cast<void*>(issue(HandleKind::export_file, std::move(object))));
 }
+inline scree_recording* handle_of(std::shared_ptr<RecordingObject> object) {
+    return static_cast<scree_recording*>(const_cast<void*>(issue(HandleKind::recording, std::move(object))));
+}
 inline std::shared_ptr<SceneObject> object_of(const scree_scene* handle) {
     return std::static_pointer_cast<SceneObject>(held(HandleKind::scene, handle));
 }
@@ -39,6 +43,9 @@ inline std::shared_ptr<WorldObject> object_of(const scree_world* handle) {
 }
 inline std::shared_ptr<ExportObject> object_of(const scree_export* handle) {
     return std::static_pointer_cast<ExportObject>(held(HandleKind::export_file, handle));
+}
+inline std::shared_ptr<RecordingObject> object_of(const scree_recording* handle) {
+    return std::static_pointer_cast<RecordingObject>(held(HandleKind::recording, handle));
 }
 
 }  // namespace scree::c

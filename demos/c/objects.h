@@ -20,6 +20,7 @@
 #include "demos/c/call.h"
 #include "demos/c/handles.h"
 #include "demos/film/drawing.h"
+#include "demos/film/page_recording.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/outputs/export_file.h"
@@ -53,8 +54,9 @@ struct WorldObject {
     World world;
     std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
     std::vector<Easel> easels;
-    std::vector<std::shared_ptr<demos::Animation>> exports;  // being recorded
-    std::atomic<std::size_t> views = 0;                      // that look into its tables
+    std::vector<std::shared_ptr<demos::Animation>> exports;       // being recorded
+    std::vector<std::weak_ptr<demos::PageRecording>> recordings;  // likewise; their handles hold them
+    std::atomic<std::size_t> views = 0;                           // that look into its tables
     std::shared_mutex in_use;
 
     const demos::LoadedScene& as_subject();
@@ -68,6 +70,17 @@ struct ExportObject {
     std::weak_ptr<WorldObject> world;
     std::shared_ptr<demos::Animation> file;
 };
+
+struct RecordingObject {
+    std::weak_ptr<WorldObject> world;
+    std::shared_ptr<demos::PageRecording> page;
+    bool is_live = false;
+    std::mutex in_use;
+};
+
+// A camera of the caller, and the scene's style with what a look of it changes. Throw Failure.
+host::Camera camera_given(const char* json, const char* name);
+PictureStyle style_given(const SceneDocument& shown, const char* look_json);
 
 // What a handle names, in use by this call. Throws Failure for a handle that names nothing, and while another thread is in it.
 template <class Handle>

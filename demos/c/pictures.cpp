@@ -32,11 +32,6 @@ host::Camera camera_of(const Viewpoint& view) {
     camera.orthographic = view.orthographic;
     return camera;
 }
-host::Camera camera_given(const char* text, const char* name) {
-    const Viewpoint view = value_from<Viewpoint>(json_given(text, name), "camera");
-    schema::check_fields(root / "camera", view);
-    return camera_of(view);
-}
 
 struct Look {  // of a colour picture
     PictureStyle style;
@@ -180,6 +175,16 @@ std::vector<std::uint8_t> png_of(const void* pixels, int width, int height, int 
 }
 
 }  // namespace
+
+host::Camera camera_given(const char* text, const char* name) {
+    const Viewpoint view = value_from<Viewpoint>(json_given(text, name), "camera");
+    schema::check_fields(root / "camera", view);
+    return camera_of(view);
+}
+
+PictureStyle style_given(const SceneDocument& shown, const char* look_json) {
+    return look_of(shown, look_json).style;
+}
 
 }  // namespace scree::c
 

@@ -526,6 +526,31 @@ typedef struct scree_export scree_export;
 SCREE_API scree_result scree_world_export(scree_world* world, const char* path, int every, int clips, scree_export** made);
 SCREE_API scree_result scree_export_close(scree_export* made);
 
+/* A recording of the steps from now on, in memory, as a page that plays it in any browser. */
+typedef struct scree_recording scree_recording;
+typedef struct scree_record_options {
+    size_t size;
+    const char* title;       /* null: the scene's */
+    const char* camera_json; /* as of scene files; null: the suggested one */
+    const char* look_json;   /* as of scree_picture */
+    double fps;              /* frames a second of time, in whole steps; 0: 30 */
+    size_t copy;             /* SCREE_ALL_COPIES: all, one beside the other */
+    int contacts;            /* 1: recorded, -1: not; 0: of at most 2000 bodies */
+    int events;              /* 1: hits and breaks, which takes the world's events */
+    int live;                /* 1: nothing is kept: for scree_recording_take */
+} scree_record_options;
+/* options may be null. The page is given also after the world was released. SCREE_IMPOSSIBLE without the viewer in the library.
+ */
+SCREE_API scree_result scree_world_record(scree_world* world, const scree_record_options* options, scree_recording** made);
+SCREE_API scree_result scree_recording_count(scree_recording* recording, uint64_t* frames);
+SCREE_API scree_result scree_recording_page(scree_recording* recording, scree_array* bytes); /* so far; HTML in UTF-8 */
+SCREE_API scree_result scree_recording_save(scree_recording* recording, const char* path);   /* the page */
+/* Of a live one: chunks (demos/docs/guide/viewer.md) of what is new in the scene since the last call, at first of all; frame: 1:
+ * and a frame of now. */
+SCREE_API scree_result scree_recording_take(scree_recording* recording, int frame, scree_array* bytes);
+SCREE_API scree_result scree_recording_stop(scree_recording* recording); /* later steps are not recorded */
+SCREE_API void scree_recording_release(scree_recording* recording);      /* null is allowed */
+
 /* ---- The program */
 
 /* Runs a command of the program scree ("scree", "run", "wall", ...), which writes to the standard streams and hears SIGINT.

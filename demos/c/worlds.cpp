@@ -75,7 +75,10 @@ std::shared_ptr<WorldObject> made_world(const SceneDocument& document, const scr
 class Stepping {
 public:
     Stepping(WorldObject& object, std::uint64_t count, scree_progress progress, void* user)
-        : object_(object), count_(count), progress_(progress), user_(user) {}
+        : object_(object), count_(count), progress_(progress), user_(user) {
+        for (const auto& page : object.recordings)
+            if (auto held = page.lock()) pages_.push_back(std::move(held));
+    }
 
     void run() {
         const bool has_events = !object_.shown.events.empty();
@@ -84,6 +87,7 @@ public:
             int batch =
                 has_events ? 1 : static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch_), count_ - done));
             for (const auto& file : object_.exports) batch = std::min(batch, file->steps_until_due(object_.world));
+            for (const auto& page : pages_) batch = std::min(batch, page->steps_until_due());
             step(batch);
             done += static_cast<std::uint64_t>(batch);
             if (progress_ != nullptr && progress_(user_, done, count_) != 0 && done < count_)
@@ -104,12 +108,14 @@ private:
             throw Failure(SCREE_NO_MEMORY, error.what());
         }
         for (const auto& file : object_.exports) file->after_step(object_.world);
+        for (const auto& page : pages_) page->after_step();
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (seconds < 0.5 * batch_seconds) batch_ = std::min(2 * batch_, largest_batch);
         if (seconds > 2 * batch_seconds) batch_ = std::max(batch_ / 2, 1);
     }
 
     WorldObject& object_;
+    std::vector<std::shared_ptr<demos::PageRecording>> pages_{};  // kept, should they be released meanwhile
     std::uint64_t count_;
     int batch_ = 1;
     scree_progress progress_;

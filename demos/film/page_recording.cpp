@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -58,7 +59,8 @@ std::string as_html(const std::string& text) {
 struct PageRecording::Impl {
     World& world;
     PageOptions options;
-    host::GrowingFile file;
+    std::optional<host::GrowingFile> file{};
+    std::string kept{};  // the page so far, without a file
     int every;
     double start;  // s
     FrameUnits units;
@@ -66,16 +68,15 @@ struct PageRecording::Impl {
     WorldChunks chunks;
     std::string block{};  // frames that are not written yet
     std::size_t first_of_block = 0, frames = 0;
-    bool block_is_whole = false;
+    bool block_is_whole = false, has_told_head = false;
     ChunkBytes events{};  // that are not written yet
     std::size_t event_count = 0;
     std::uint64_t recorded = std::numeric_limits<std::uint64_t>::max();  // at this step
     double seconds_encoding = 0;
 
-    Impl(const std::filesystem::path& path, World& of, PageOptions&& chosen)
+    Impl(World& of, PageOptions&& chosen)
         : world(of),
           options(std::move(chosen)),
-          file(path),
           every(std::max(1, static_cast<int>(std::lround(static_cast<double>(of.settings().rate) / options.fps)))),
           start(of.time()),
           units(units_of(of, options, every / static_cast<double>(of.settings().rate))),
@@ -84,49 +85,75 @@ struct PageRecording::Impl {
 
     double frame_seconds() const { return every / static_cast<double>(world.settings().rate); }
 
-    void put_block(const char* kind, const std::string& content, const std::string& more = "") {
-        file.append(std::string("<script type=\"application/x-scree\" data-kind=\"") + kind + "\"" + more + ">");
-        file.append(base64(packed_block(content)));
-        file.append(std::string_view("</script>\n"));
+    void put(std::string_view text) {
+        if (file)
+            file->append(text);
+        else
+            kept += text;
+    }
+    static std::string element(const char* kind, const std::string& content, const std::string& more = "") {
+        return std::string("<script type=\"application/x-scree\" data-kind=\"") + kind + "\"" + more + ">" +
+               base64(packed_block(content)) + "</script>\n";
+    }
+    // Frames that are not written yet; none: nothing.
+    std::string pending() const {
+        if (frames == first_of_block) return "";
+        return element("frames", block,
+                       " data-first=\"" + std::to_string(first_of_block) + "\" data-frames=\"" +
+                           std::to_string(frames - first_of_block) + "\" data-whole=\"" + (block_is_whole ? "1" : "0") + "\"");
     }
     void put_frames() {
-        if (frames == first_of_block) return;
-        put_block("frames", block,
-                  " data-first=\"" + std::to_string(first_of_block) + "\" data-frames=\"" +
-                      std::to_string(frames - first_of_block) + "\" data-whole=\"" + (block_is_whole ? "1" : "0") + "\"");
+        put(pending());
         block.clear();
         first_of_block = frames;
     }
 
-    void put_events() {
+    std::string pending_events() const {
         ChunkBytes all;
-        all.count(std::exchange(event_count, 0));
-        all.append(std::exchange(events, {}));
+        all.count(event_count);
+        all.append(events);
         std::string chunk;
         append_chunk(chunk, "evnt", all);
-        put_block("events", chunk);
+        return element("events", chunk);
+    }
+    void put_events() {
+        put(pending_events());
+        event_count = 0;
+        events = {};
     }
 
+    void add_head(std::string& to) const;
+    std::string end() const;  // what follows the frames
     void begin();
     void record();
     void record_frame();
+    void add_frame(std::string& to, bool whole);
 };
 
 void PageRecording::Impl::begin() {
     const std::string_view page = viewer_page();
     const std::size_t title = page.find(place_of_title), data = page.find(place_of_data);
     if (title == page.npos || data == page.npos || data < title) throw std::logic_error(why_not());
-    file.append(page.substr(0, title));
-    file.append("<title>" + as_html(options.title) + " · scree</title>");
-    file.append(page.substr(title + place_of_title.size(), data - title - place_of_title.size()));
+    put(page.substr(0, title));
+    put("<title>" + as_html(options.title) + " · scree</title>");
+    put(page.substr(title + place_of_title.size(), data - title - place_of_title.size()));
     if (options.events) ask_for_events(world);
+    std::string chunk;
+    add_head(chunk);
+    chunks.take_new(chunk, world);
+    put(element("scene", chunk));
+    record();
+}
+
+void PageRecording::Impl::add_head(std::string& to) const {
     ChunkBytes told;
     told.bytes = head_of(world, options, units, frame_seconds(), start);
-    std::string chunk;
-    append_chunk(chunk, "head", told);
-    chunks.take_new(chunk, world);
-    put_block("scene", chunk);
-    record();
+    append_chunk(to, "head", told);
+}
+
+std::string PageRecording::Impl::end() const {
+    const std::string_view page = viewer_page();
+    return pending_events().append(page.substr(page.find(place_of_data) + place_of_data.size()));
 }
 
 void PageRecording::Impl::record() {
@@ -146,8 +173,12 @@ void PageRecording::Impl::record_frame() {
     const bool too_long = block.size() > most_of_block;
     const bool whole = frames % frames_of_block == 0;
     if (whole || too_long || !fresh.empty()) put_frames();
-    if (!fresh.empty()) put_block("scene", fresh);
+    if (!fresh.empty()) put(element("scene", fresh));
     if (frames == first_of_block) block_is_whole = whole;
+    add_frame(block, whole);
+}
+
+void PageRecording::Impl::add_frame(std::string& to, bool whole) {
     ChunkBytes frame;
     frame.f64(world.time() - start);
     frame.count(world.steps());
@@ -164,7 +195,7 @@ void PageRecording::Impl::record_frame() {
         frame.f32(camera.vertical_fov);
         frame.u8(camera.orthographic ? 1 : 0);
     }
-    append_chunk(block, "fram", frame);
+    append_chunk(to, "fram", frame);
     ++frames;
 }
 
@@ -176,10 +207,26 @@ std::string PageRecording::why_not() {
     return "this program was built without its viewer: install esbuild (apt-get install esbuild), configure and build again";
 }
 
+PageRecording::PageRecording() = default;
+
+PageRecording::PageRecording(World& world, PageOptions options) {
+    if (!is_possible()) throw std::logic_error(why_not());
+    interior_ = std::make_unique<Impl>(world, std::move(options));
+    interior_->begin();
+}
+
 PageRecording::PageRecording(const std::filesystem::path& path, World& world, PageOptions options) {
     if (!is_possible()) throw std::logic_error(why_not());
-    interior_ = std::make_unique<Impl>(path, world, std::move(options));
+    interior_ = std::make_unique<Impl>(world, std::move(options));
+    interior_->file.emplace(path);
     interior_->begin();
+}
+
+std::unique_ptr<PageRecording> PageRecording::live(World& world, PageOptions options) {
+    std::unique_ptr<PageRecording> made(new PageRecording);
+    options.events = false;
+    made->interior_ = std::make_unique<Impl>(world, std::move(options));
+    return made;
 }
 
 PageRecording::~PageRecording() = default;
@@ -197,14 +244,26 @@ void PageRecording::after_step() {
 void PageRecording::finish() {
     Impl& in = *interior_;
     in.put_frames();
-    in.put_events();
-    const std::string_view page = viewer_page();
-    in.file.append(page.substr(page.find(place_of_data) + place_of_data.size()));
-    in.file.commit();
+    in.put(in.end());
+    in.file.value().commit();
+}
+
+std::string PageRecording::page() const {
+    return interior_->kept + interior_->pending() + interior_->end();
+}
+
+std::string PageRecording::take(bool frame) {
+    Impl& in = *interior_;
+    std::string chunks;
+    if (!in.has_told_head) in.add_head(chunks);
+    in.has_told_head = true;
+    in.chunks.take_new(chunks, in.world);
+    if (frame) in.add_frame(chunks, in.frames == 0);
+    return chunks;
 }
 
 PageFigures PageRecording::figures() const {
-    return {interior_->frames, interior_->file.size(), interior_->seconds_encoding};
+    return {interior_->frames, interior_->file ? interior_->file->size() : interior_->kept.size(), interior_->seconds_encoding};
 }
 
 }  // namespace scree::demos

@@ -3,6 +3,8 @@
 //     PageRecording page("run.html", world, {.title = "my run"});
 //     while (...) { world.step(); page.after_step(); }
 //     page.finish();
+//
+// Or in memory, where page() is what there is so far; or live, for viewers that show what happens now.
 #pragma once
 
 #include <cstddef>
@@ -50,16 +52,23 @@ public:
 
     // Records the beginning. Throws host::FileError, and std::logic_error where it is not possible.
     PageRecording(const std::filesystem::path& path, World& world, PageOptions options);
+    // In memory: page() gives it as often as wanted.
+    PageRecording(World& world, PageOptions options);
+    // Keeps nothing: take() gives a live viewer its chunks. Possible in every program.
+    static std::unique_ptr<PageRecording> live(World& world, PageOptions options);
     ~PageRecording();  // nothing is left of what was not finished
     PageRecording(const PageRecording&) = delete;
     PageRecording& operator=(const PageRecording&) = delete;
 
     int steps_until_due() const;
-    void after_step();  // records if it is due
-    void finish();      // the page appears under its name
+    void after_step();             // records if it is due
+    void finish();                 // the page appears under its name
+    std::string page() const;      // one in memory, as if it ended now; also after the world's end
+    std::string take(bool frame);  // of a live one: what is new in the scene, at first all, and a frame of now
     PageFigures figures() const;
 
 private:
+    PageRecording();
     struct Impl;
     std::unique_ptr<Impl> interior_;
 };

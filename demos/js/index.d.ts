@@ -132,6 +132,17 @@ export interface World {
   closestPoints(points: { point: Vector; reach: number; mask?: number; copy?: number }[]): (Hit | null)[];
   debugDrawing(options?: { shapes?: 0 | 1; contacts?: 0 | 1; joints?: 0 | 1; boxes?: 0 | 1; segments?: number; line_length?: number;
     force_length?: number; bodies?: number[] }): { lines: Float32Array; points: Float32Array };
+  // Of the steps from now on. fps: frames a second of time; live: keeps no frames, for take().
+  record(options?: { title?: string; camera?: Json; look?: Json; fps?: number; contacts?: -1 | 0 | 1; events?: 0 | 1; live?: 0 | 1;
+    copy?: number }): Recording;
+}
+
+export interface Recording {
+  count(): number; // frames
+  page(): string; // HTML that plays them, so far
+  take(frame?: boolean): Uint8Array; // of a live one: chunks of demos/docs/guide/viewer.md
+  stop(): void;
+  dispose(): void;
 }
 
 export type StateName = 'position' | 'orientation' | 'velocity' | 'angular_velocity' | 'mass' | 'asleep' | 'exists';

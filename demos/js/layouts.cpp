@@ -76,6 +76,7 @@ extern "C" const char* scree_js_layouts() {
         LAYOUT(scree_point, M(point) M(reach) M(mask) M(copy))
         LAYOUT(scree_debug_options, M(size) M(shapes) M(contacts) M(joints) M(boxes) M(segments) M(line_length) M(force_length)
                                         M(bodies) M(body_count))
+        LAYOUT(scree_record_options, M(size) M(title) M(camera_json) M(look_json) M(fps) M(copy) M(contacts) M(events) M(live))
         LAYOUT(scree_line, M(from) M(to) M(color))
         LAYOUT(scree_dot, M(position) M(color))
         return layouts.text + "}";

@@ -3,6 +3,7 @@ import { Held } from './library.js';
 import { addBodies } from './world_bodies.js';
 import { addJoints } from './world_joints.js';
 import { addQueries } from './world_queries.js';
+import { addRecordings } from './world_recordings.js';
 
 export function worldClass(library, Scene) {
   class World extends Held {
@@ -146,5 +147,6 @@ export function worldClass(library, Scene) {
   addBodies(World, library, Scene);
   addJoints(World, library);
   addQueries(World, library);
+  addRecordings(World, library);
   return World;
 }

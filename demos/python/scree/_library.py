@@ -101,6 +101,11 @@ class PictureOptions(ctypes.Structure):
                 ("part", ctypes.c_void_p), ("normal", ctypes.c_void_p), ("flow", ctypes.c_void_p)]
 
 
+class RecordOptions(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), ("title", ctypes.c_char_p), ("camera_json", ctypes.c_char_p), ("look_json", ctypes.c_char_p),
+                ("fps", ctypes.c_double), ("copy", ctypes.c_size_t), ("contacts", ctypes.c_int), ("events", ctypes.c_int), ("live", ctypes.c_int)]
+
+
 ALL_COPIES = ctypes.c_size_t(-1).value
 
 _KINDS = {"p": ctypes.c_void_p, "s": ctypes.c_char_p, "z": ctypes.c_size_t, "i": ctypes.c_int, "u": ctypes.c_uint64, "f": ctypes.c_float}
@@ -130,13 +135,15 @@ _SIGNATURES = {
     "scree_world_cast_rays_through": "ppzzpp", "scree_world_cast_shapes": "pspzzpz", "scree_world_overlaps": "pspzzpp",
     "scree_world_penetrations": "pspzzpp", "scree_world_closest_points": "ppzzpz", "scree_world_debug_drawing": "pppp",
     "scree_world_render": "pp", "scree_world_canvas_name": "pp", "scree_world_suggested_camera": "pp", "scree_pixel_rays": "siipp",
-    "scree_png": "piiiip", "scree_world_export": "psiip", "scree_export_close": "p"}
+    "scree_png": "piiiip", "scree_world_export": "psiip", "scree_export_close": "p",
+    "scree_world_record": "ppp", "scree_recording_count": "pp", "scree_recording_page": "pp", "scree_recording_save": "ps",
+    "scree_recording_take": "pip", "scree_recording_stop": "p"}
 
 for _name, _arguments in _SIGNATURES.items():
     _function = getattr(LIBRARY, _name)
     _function.argtypes = [_KINDS[one] for one in _arguments]
     _function.restype = ctypes.c_int
-for _name in ("scree_scene_release", "scree_world_release", "scree_view_release"):
+for _name in ("scree_scene_release", "scree_world_release", "scree_view_release", "scree_recording_release"):
     _function = getattr(LIBRARY, _name)
     _function.argtypes = [ctypes.c_void_p]
     _function.restype = None

@@ -2,12 +2,13 @@
 """Scenes and worlds as libscree has them; the package gives them their form."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import json
 import threading
 import time
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 try:
     import numpy as np
@@ -15,7 +16,7 @@ try:
 except ImportError as error:
     raise ImportError(f"scree needs numpy 1.21 or later: pip install numpy ({error})") from None
 
-from scree._library import (ALL_COPIES, LIBRARY, Array, Column, DebugOptions, EventOptions, GripOptions, LoadOptions, PictureOptions, Statistics,
+from scree._library import (ALL_COPIES, LIBRARY, Array, Column, DebugOptions, EventOptions, GripOptions, LoadOptions, PictureOptions, RecordOptions, Statistics,
                             WorldInfo, WorldOptions, check, error_of, sized)
 
 _Array = npt.NDArray[Any]
@@ -250,6 +251,38 @@ class Export:
         self._world._close_export(self._handle)
 
 
+class Recording:
+    """A page of the steps from now on."""
+
+    def __init__(self, world: "World", handle: Optional[int]) -> None:
+        self._world = world
+        self._handle = handle
+
+    def __del__(self, release: Any = LIBRARY.scree_recording_release) -> None:
+        release(getattr(self, "_handle", None))
+
+    def _call(self, function: Callable[..., int], *arguments: Any) -> None:
+        with self._world._idle():
+            check(function(self._handle, *arguments))
+
+    def count(self) -> int:
+        found = ctypes.c_uint64()
+        self._call(LIBRARY.scree_recording_count, _byref(found))
+        return found.value
+
+    def page(self) -> str:
+        found = Array()
+        with self._world._idle():
+            check(LIBRARY.scree_recording_page(self._handle, _byref(found)))
+            return ctypes.string_at(found.data, found.count).decode()
+
+    def save(self, path: str) -> None:
+        self._call(LIBRARY.scree_recording_save, _text(path))
+
+    def stop(self) -> None:
+        self._call(LIBRARY.scree_recording_stop)
+
+
 class _View:
     """Memory of the library's tables, which an array keeps."""
 
@@ -304,6 +337,16 @@ class World:
         error, self._left_error = self._left_error, None
         if error is not None:
             raise error
+
+    @contextlib.contextmanager
+    def _idle(self) -> Iterator[None]:
+        """While no step runs."""
+        with self._calls:
+            if self._stepping:
+                raise RuntimeError("the world is in use by another thread")
+            if self._left is not None:
+                self._wait()
+            yield
 
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:
         with self._calls:
@@ -399,6 +442,14 @@ class World:
     def close_exports(self) -> None:
         for handle in list(self._exports):
             self._close_export(handle)
+
+    def record(self, title: str, camera: str, look: str, fps: float, copy: Optional[int], contacts: Optional[bool], events: bool) -> Recording:
+        handle = ctypes.c_void_p()
+        options = sized(RecordOptions, title=_text(title) if title else None, camera_json=_text(camera) if camera else None, look_json=_text(look),
+                        fps=fps, copy=ALL_COPIES if copy is None else copy, contacts=0 if contacts is None else 1 if contacts else -1,
+                        events=int(events))
+        self._call(LIBRARY.scree_world_record, _byref(options), _byref(handle))
+        return Recording(self, handle.value)
 
     # ---- states
     def save(self) -> bytes:
