@@ -271,15 +271,11 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     return is_active_at(c, impulse, normal_speeds(c, impulse.center_offset, v), parameters);
 }
 
-// Impacts on a body that is split among more than so many count for the next substep.
-CONSTANT float IMPACTS_AT_ONCE = 1.5f;
-
 // The same for the next substep, after the relax pass: what bore in the biased pass counts, too. A heavy body that falls upon a
 // light one presses it onto its supports in every biased pass, and the light body leaves them again in every relax pass. A single
 // impact does not count, so that the next one, with another body, finds the whole mass; several at once come again together.
 LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, vec3 speeds, Mass a, Mass b, Parameters parameters) {
-    bool struck = is_impact(biased), at_once = larger(a.split, b.split) > IMPACTS_AT_ONCE;
-    bool bore = normal_impulse(biased) > 0.0f && (!struck || at_once);
+    bool bore = normal_impulse(biased) > 0.0f;
     return choose(bore, 1.0f, is_active_at(c, relaxed, speeds, parameters));
 }
 

@@ -23,9 +23,6 @@ CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the rotation (5 degrees)
 // Sine of half the rotation of a body about the normal that does (1 degree): the frozen offset of the centres lags behind,
 // and with 5 degrees what stood askew on a turntable crept outwards, ever faster.
 CONSTANT float KEPT_YAW = 0.00873f;
-// On a kinematic body that turns or tips, the speed at which what lies on it would creep because the frozen offset lags behind,
-// half of it, m/s. Without this limit a box at 1 m from the axis of a table that turns at 1 rad/s crept outwards by 9 mm/s.
-CONSTANT float KEPT_LAG = 2.0e-6f;
 // The limit of any rotation for one or two points (0.6 degrees, about what the slip tolerance allows with more): a body rocks
 // about them without slip, and while the normal of two edges is frozen and they turn, the rocking never ends.
 CONSTANT float KEPT_ROCKING = 0.9999875f;
@@ -75,10 +72,9 @@ LAW bool is_persistent(Contact contact, BodyProperties ta, Pose a, Velocity va, 
                  turned_little(contact.orientation_b, b.orientation, contact.count);
     vec4 since_a = turn_since(contact.orientation_a, a.orientation), since_b = turn_since(contact.orientation_b, b.orientation);
     keeps = keeps && abs(dot3(xyz(since_a), contact.normal)) <= KEPT_YAW && abs(dot3(xyz(since_b), contact.normal)) <= KEPT_YAW;
-    bool a_drives = motion_of(ta) == MOTION_KINEMATIC, b_drives = motion_of(tb) == MOTION_KINEMATIC;
-    vec3 turn = choose(a_drives, xyz(since_a), xyz(since_b)), turning = choose(a_drives, va.angular, vb.angular);
-    float lag = length3(turn) * length3(turning) * length3(contact.center_offset);
-    keeps = keeps && !((a_drives || b_drives) && lag > KEPT_LAG);
+    // The frozen offset of the centres lags behind a kinematic body that turns: what lies on it would creep.
+    keeps = keeps && !(motion_of(ta) == MOTION_KINEMATIC && dot3(va.angular, va.angular) > 0.0f) &&
+            !(motion_of(tb) == MOTION_KINEMATIC && dot3(vb.angular, vb.angular) > 0.0f);
     if (none(keeps)) return keeps;
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;

@@ -45,9 +45,6 @@ LAW float slowest_impact(Constraint c, ImpactContext around, Parameters paramete
 
 // An impact ends when it has returned its energy but for this part.
 CONSTANT float REBOUND_LEFT = 1.0e-3f;
-// On a body of a block of joints it also ends when a pass returns less than this part of what is left: the block's other
-// bodies have struck something, and hold it.
-CONSTANT float REBOUND_PROGRESS = 0.03f;
 
 // Rebound velocity without geometry, m/s: e times the impact velocity, less half a substep's relative acceleration.
 LAW float plain_rebound(Constraint c, float impact_velocity, float pull, Parameters parameters) {
@@ -65,7 +62,6 @@ LAW bool is_impact(Impulse impulse) {
 // answers: with that mass the next push does what is left, whatever hangs on the struck body.
 struct JoinedPush {
     float energy;    // that is left to return, J
-    float progress;  // J, >= 0
     float response;  // change of speed by an impulse of 1, 1/kg
 };
 LAW JoinedPush joined_push(float pushed, float from, float to, float energy, float e2) {
@@ -76,7 +72,6 @@ LAW JoinedPush joined_push(float pushed, float from, float to, float energy, flo
     float compression = positive(mean * (low_from * low_from - low_to * low_to));
     float expansion = positive(mean * (high_to * high_to - high_from * high_from));
     push.energy = flush_least((energy + e2 * compression) - expansion);
-    push.progress = 0.5f * (pushed * positive(gained));
     push.response = choose(gained > 0.0f, gained * reciprocal(larger(pushed, 1.0e-18f)), 1.0e30f);
     return push;
 }
@@ -95,18 +90,17 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, vec3 speeds, Impac
     }
     float before = impulse.rebound_energy;
     float left = flush_least(before - work);
-    bool joined = impulse.impact_energy > 0.0f && impulse.speed_before_push != 0.0f, held = false;
+    bool joined = impulse.impact_energy > 0.0f && impulse.speed_before_push != 0.0f;
     float response = 0.0f;
     if (!none(joined)) {
         float pushed = (impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w);
         float reached = 2.0f * (work * reciprocal(larger(pushed, 1.0e-18f)));
         JoinedPush push = joined_push(pushed, impulse.speed_before_push, reached, before, c.restitution * c.restitution);
         left = choose(joined, push.energy, left);
-        held = joined && push.progress < REBOUND_PROGRESS * before;
         response = push.response;
     }
     bool lasted = is_impact(impulse) && impulse.impact_energy > 0.0f;
-    bool lasts = lasted && left > REBOUND_LEFT * impulse.impact_energy && !held;
+    bool lasts = lasted && left > REBOUND_LEFT * impulse.impact_energy;
     float weight = choose(left < before, square_root(positive(left * reciprocal(larger(before, left)))), 1.0f);
     impulse.impact = choose(lasts, impulse.impact, vec4(0.0f));
     impulse.rebound_energy = choose(lasts, left, choose(lasted, smaller(left, 0.0f), 0.0f));
