@@ -82,7 +82,7 @@ LAW RelaxOutcome relax_pass(Constraint c, Impulse impulse, VelocityPair v, Block
     outcome.impulse.normal_sum = normal_impulse(outcome.impulse);
     outcome.velocity = after.pair_velocity;
     outcome.share = changes_after(c, after, outcome.impulse, !last, bodies.a, bodies.b);
-    outcome.counts = counts_next(c, impulse, outcome.impulse, after.speeds, bodies.a, bodies.b, parameters);
+    outcome.counts = counts_next(c, impulse, outcome.impulse, after.speeds, parameters);
     outcome.normal_sum = outcome.impulse.normal_sum;
     return outcome;
 }

@@ -272,11 +272,9 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
 }
 
 // The same for the next substep, after the relax pass: what bore in the biased pass counts, too. A heavy body that falls upon a
-// light one presses it onto its supports in every biased pass, and the light body leaves them again in every relax pass. A single
-// impact does not count, so that the next one, with another body, finds the whole mass; several at once come again together.
-LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, vec3 speeds, Mass a, Mass b, Parameters parameters) {
-    bool bore = normal_impulse(biased) > 0.0f;
-    return choose(bore, 1.0f, is_active_at(c, relaxed, speeds, parameters));
+// light one presses it onto its supports in every biased pass, and the light body leaves them again in every relax pass.
+LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, vec3 speeds, Parameters parameters) {
+    return choose(normal_impulse(biased) > 0.0f, 1.0f, is_active_at(c, relaxed, speeds, parameters));
 }
 
 // A contact is unloaded if all its impulses are zero. A pass changes nothing of such a contact but what after_motion() does, and
