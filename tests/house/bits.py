@@ -4,9 +4,10 @@
 tests/house/bits.py PROGRAM [--keep] [--row "SYSTEM | COMPILER"].
 
 Exit status 1 where a hash differs from the one on record. --keep puts PROGRAM's hashes on record: after a change that is meant to
-change bits. --row writes what was found into the table of demos/docs/evidence/platforms.md.
+change bits. --row writes what was found into the table of demos/docs/evidence/platforms.md, with the digest of the record.
 """
 import argparse
+import hashlib
 import json
 import pathlib
 import re
@@ -41,6 +42,10 @@ def report_of(program, scene, options):
 def on_record():
     lines = record.read_text().splitlines()
     return dict(line.split() for line in lines if line and not line.startswith("#"))
+
+
+def digest():
+    return hashlib.sha256(record.read_bytes()).hexdigest()[:8]
 
 
 def keep(found):
@@ -85,7 +90,8 @@ def main():
     print(f"{len(found) - len(wrong)} of {len(found)} scenes have the bits on record")
     if given.row:
         lanes = max(report.get("lanes", 0) for report in reports.values())
-        write_row(f"{given.row} | {lanes}", f"{len(found) - len(wrong)} of {len(found)}" + (f" (not {', '.join(wrong)})" if wrong else ""))
+        agreed = f"{len(found) - len(wrong)} of {len(found)}" + (f" (not {', '.join(wrong)})" if wrong else "")
+        write_row(f"{given.row} | {lanes}", f"{agreed} | {digest()}")
     sys.exit(1 if wrong or gone or not found else 0)
 
 
