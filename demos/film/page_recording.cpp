@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "demos/film/chunk_bytes.h"
 #include "demos/film/frame_encoder.h"
@@ -20,8 +21,9 @@ namespace scree::demos {
 namespace {
 
 constexpr std::string_view place_of_title = "<title>scree</title>", place_of_data = "<!-- recording -->";
-constexpr double seconds_of_block = 1.5;         // what a reader reads again to get to a moment
-constexpr std::size_t most_of_block = 4u << 20;  // bytes before compression
+constexpr double seconds_of_block = 1.5;          // what a reader reads again to get to a moment
+constexpr std::size_t most_of_block = 4u << 20;   // bytes before compression
+constexpr std::size_t most_of_events = 1u << 18;  // likewise, of all events
 
 std::string base64(std::string_view bytes) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -65,7 +67,7 @@ struct PageRecording::Impl {
     std::string block{};  // frames that are not written yet
     std::size_t first_of_block = 0, frames = 0;
     bool block_is_whole = false;
-    ChunkBytes events{};  // all
+    ChunkBytes events{};  // that are not written yet
     std::size_t event_count = 0;
     std::uint64_t recorded = std::numeric_limits<std::uint64_t>::max();  // at this step
     double seconds_encoding = 0;
@@ -94,6 +96,15 @@ struct PageRecording::Impl {
                       std::to_string(frames - first_of_block) + "\" data-whole=\"" + (block_is_whole ? "1" : "0") + "\"");
         block.clear();
         first_of_block = frames;
+    }
+
+    void put_events() {
+        ChunkBytes all;
+        all.count(std::exchange(event_count, 0));
+        all.append(std::exchange(events, {}));
+        std::string chunk;
+        append_chunk(chunk, "evnt", all);
+        put_block("events", chunk);
     }
 
     void begin();
@@ -128,6 +139,7 @@ void PageRecording::Impl::record() {
 
 void PageRecording::Impl::record_frame() {
     if (options.events) event_count += add_events(events, world, chunks, start);
+    if (events.bytes.size() > most_of_events) put_events();
     std::string fresh;
     if (frames > 0) chunks.take_new(fresh, world);
     const auto frames_of_block = static_cast<std::size_t>(std::max(1.0, std::round(seconds_of_block / frame_seconds())));
@@ -143,7 +155,7 @@ void PageRecording::Impl::record_frame() {
     const std::vector<BodyMoment>& moments = chunks.look(world);
     frame.u8((whole ? 1u : 0u) | (options.contacts ? 2u : 0u) | (joints ? 4u : 0u) | (options.camera ? 8u : 0u));
     encoder.encode(frame, moments, whole);
-    if (options.contacts) chunks.add_contacts(frame, world, units, encoder.followers());
+    if (options.contacts) chunks.add_contacts(frame, world, units, encoder.followers(), whole);
     if (joints) chunks.add_joints(frame, world, units, whole);
     if (options.camera) {
         const host::Camera camera = options.camera(world.time());
@@ -185,12 +197,7 @@ void PageRecording::after_step() {
 void PageRecording::finish() {
     Impl& in = *interior_;
     in.put_frames();
-    ChunkBytes all;
-    all.count(in.event_count);
-    all.append(in.events);
-    std::string chunk;
-    append_chunk(chunk, "evnt", all);
-    in.put_block("events", chunk);
+    in.put_events();
     const std::string_view page = viewer_page();
     in.file.append(page.substr(page.find(place_of_data) + place_of_data.size()));
     in.file.commit();

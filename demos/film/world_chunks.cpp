@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <variant>
 
 #include "compute/scene/hull.h"
@@ -79,13 +80,12 @@ bool has_axis(const JointKind& kind) {
     return !std::holds_alternative<Ball>(kind) && !std::holds_alternative<Fixed>(kind) && !std::holds_alternative<Distance>(kind);
 }
 
-// A unit vector as two bytes: octahedron, 0 to 255 for -1 to 1.
-void put_direction(ChunkBytes& x, ChunkBytes& y, glm::vec3 n) {
+// A unit vector on an octahedron, 0 to 255 for -1 to 1.
+glm::vec2 on_octahedron(glm::vec3 n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     glm::vec2 at = sum > 0 ? glm::vec2(n.x, n.z) / sum : glm::vec2(0);
     if (n.y < 0) at = {std::copysign(1 - std::abs(at.y), n.x), std::copysign(1 - std::abs(at.x), n.z)};
-    x.u8(static_cast<std::uint32_t>(std::lround(127.5f + 127.5f * at.x)));
-    y.u8(static_cast<std::uint32_t>(std::lround(127.5f + 127.5f * at.y)));
+    return 127.5f + 127.5f * at;
 }
 
 }  // namespace
@@ -261,41 +261,78 @@ const std::vector<BodyMoment>& WorldChunks::look(const World& world) {
     return moments_;
 }
 
-void WorldChunks::add_contacts(ChunkBytes& to, const World& world, const FrameUnits& units,
-                               const std::vector<Follower>& followers) const {
-    ChunkBytes first, second, x, y, z, normal_x, normal_y, levels;
-    std::size_t count = 0;
-    std::uint32_t before = 0;
+std::vector<WorldChunks::TouchingPoint> WorldChunks::touching(const World& world, const FrameUnits& units,
+                                                              const std::vector<Follower>& followers) const {
+    std::vector<TouchingPoint> points;
     const double unit = 4 * units.position;
     for (const ContactState& contact : world.contacts()) {
-        glm::vec3 point(0);
-        float force = 0;
-        for (std::uint32_t k = 0; k < contact.count; ++k) {
-            point += contact.points[k].position / static_cast<float>(contact.count);
-            force += contact.points[k].force;
-        }
         const std::uint32_t a = place_of(contact.a), b = place_of(contact.b);
-        if (a == 0 || b == 0 || !(static_cast<double>(force) >= units.force)) continue;
-        // Beside the one that is no plane.
-        const Followed& of_a = bodies_[a - 1];
-        const std::uint32_t beside = of_a.plane ? b : a;
-        point += of_a.offset;
-        first.integer(static_cast<std::int32_t>(a) - static_cast<std::int32_t>(before));
-        before = a;
-        second.integer(static_cast<std::int32_t>(b) - static_cast<std::int32_t>(a));
-        const auto& at = followers[beside - 1].position;
-        ChunkBytes* const columns[] = {&x, &y, &z};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double way = static_cast<double>(point[static_cast<glm::length_t>(k)]) - at[k] * units.part();
-            columns[k]->integer(static_cast<std::int32_t>(std::lround(std::clamp(way / unit, -1e9, 1e9))));
+        if (a == 0 || b == 0) continue;
+        const std::uint32_t beside = bodies_[a - 1].plane ? b : a;
+        const glm::vec2 normal = on_octahedron(contact.normal);
+        for (std::uint32_t k = 0; k < contact.count; ++k) {
+            const double force = static_cast<double>(contact.points[k].force);
+            if (!(force >= units.force)) continue;
+            TouchingPoint& point = points.emplace_back();
+            point.a = a;
+            point.b = b;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto axis = static_cast<glm::length_t>(i);
+                const double at = static_cast<double>(contact.points[k].position[axis] + bodies_[beside - 1].offset[axis]);
+                point.exact[i] = std::clamp((at - followers[beside - 1].position[i] * units.part()) / unit, -1e8, 1e8);
+            }
+            point.exact[3] = static_cast<double>(normal.x);
+            point.exact[4] = static_cast<double>(normal.y);
+            point.exact[5] = 1 + FrameUnits::levels_per_octave * std::log2(force / units.force);
         }
-        put_direction(normal_x, normal_y, contact.normal);
-        levels.count(static_cast<std::uint64_t>(
-            std::lround(1 + FrameUnits::levels_per_octave * std::log2(static_cast<double>(force) / units.force))));
-        ++count;
     }
-    to.count(count);
-    for (const ChunkBytes* column : {&first, &second, &x, &y, &z, &normal_x, &normal_y, &levels}) to.part(*column);
+    std::stable_sort(points.begin(), points.end(),
+                     [](const TouchingPoint& x, const TouchingPoint& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    return points;
+}
+
+void WorldChunks::add_contacts(ChunkBytes& to, const World& world, const FrameUnits& units,
+                               const std::vector<Follower>& followers, bool whole) {
+    if (whole) touching_.clear();
+    std::vector<TouchingPoint> now = touching(world, units, followers);
+    BitRow stays, changed;
+    ChunkBytes fresh_a, fresh_b;
+    std::array<ChunkBytes, 6> columns, fresh;
+    std::size_t fresh_count = 0, old = 0;
+    std::uint32_t before = 0;
+    for (TouchingPoint& point : now) {
+        const auto comes_before = [&](const TouchingPoint& x) { return std::tie(x.a, x.b) < std::tie(point.a, point.b); };
+        for (; old < touching_.size() && comes_before(touching_[old]); ++old) stays.add(false);
+        const bool known = old < touching_.size() && touching_[old].a == point.a && touching_[old].b == point.b;
+        if (known) {
+            stays.add(true);
+            point.told = touching_[old++].told;
+            bool differs = false;
+            for (std::size_t k = 0; k < 6; ++k)
+                differs = differs || std::abs(point.exact[k] - point.told[k]) > (k < 3 ? 0.75 : 1.5);
+            changed.add(differs);
+            if (!differs) continue;
+        } else {
+            fresh_a.integer(static_cast<std::int32_t>(point.a) - static_cast<std::int32_t>(before));
+            fresh_b.integer(static_cast<std::int32_t>(point.b) - static_cast<std::int32_t>(point.a));
+            before = point.a;
+            ++fresh_count;
+        }
+        for (std::size_t k = 0; k < 6; ++k) {
+            const auto value = static_cast<std::int32_t>(std::lround(point.exact[k]));
+            (known ? columns : fresh)[k].integer(value - point.told[k]);
+            point.told[k] = value;
+        }
+    }
+    for (; old < touching_.size(); ++old) stays.add(false);
+    to.part(stays.row);
+    to.part(changed.row);
+    for (const ChunkBytes& column : columns) to.part(column);
+    to.count(fresh_count);
+    to.part(fresh_a);
+    to.part(fresh_b);
+    for (const ChunkBytes& column : fresh) to.part(column);
+    touching_ = std::move(now);
 }
 
 void WorldChunks::add_joints(ChunkBytes& to, const World& world, const FrameUnits& units, bool whole) {

@@ -1,5 +1,5 @@
 // The camera: turns about a point, moves, comes nearer; or the scene's own, as recorded.
-import { add, axesOf, clamp, cross, dot, length, rotated, scaled, sub, unit } from './math.js';
+import { add, axesOf, clamp, length, scaled, sub, unit } from './math.js';
 
 export class Camera {
   constructor() {
@@ -82,4 +82,4 @@ export class Camera {
   }
 }
 
-export { cross, dot, rotated };
+

@@ -80,6 +80,7 @@ export class FrameDecoder {
     this.now = new Moment();
     this.falls = new Uint8Array(0);
     this.turn = new Int32Array(0);
+    this.touching = [];
   }
 
   // Decodes the bytes of a frame chunk; `index` is the frame's number.
@@ -112,7 +113,7 @@ export class FrameDecoder {
     this.readWhole(from, fresh);
     this.readChanges(from, fresh);
     readLevels(from, now.force, count, whole);
-    now.contacts = flags & 2 ? this.readContacts(from) : null;
+    now.contacts = flags & 2 ? this.readContacts(from, whole) : null;
     if (flags & 4) {
       const joints = from.count(), row = from.part();
       now.jointBroken = Uint8Array.from({ length: joints }, (_, i) => (row[i >> 3] >> (i & 7)) & 1);
@@ -193,28 +194,43 @@ export class FrameDecoder {
     }
   }
 
-  // Contacts: { count, a, b (places), point (m, three each), normal, level }.
-  readContacts(from) {
-    const count = from.count(), unit = this.units.position, { position } = this.now;
-    const [first, second, xs, ys, zs] = Array.from({ length: 5 }, () => new Reader(from.part()));
-    const normalX = from.part(), normalY = from.part(), levels = new Reader(from.part());
-    const made = { count, a: new Int32Array(count), b: new Int32Array(count), point: new Float64Array(3 * count),
-      normal: new Float32Array(3 * count), level: new Int32Array(count) };
+  // Points that touch: { count, a, b (places), point (m, three each), normal, level }.
+  readContacts(from, whole) {
+    const known = whole ? [] : this.touching, stays = from.part(), changed = from.part(), columns = new Columns(from, 6);
+    const kept = [];
+    known.forEach((point, i) => {
+      if (!(stays[i >> 3] >> (i & 7) & 1)) return;
+      const k = kept.push(point) - 1;
+      if (changed[k >> 3] >> (k & 7) & 1) for (let c = 0; c < 6; ++c) point.told[c] += columns.next(c);
+    });
+    const fresh = [], count = from.count(), numbers = new Columns(from, 8);
     for (let i = 0, a = 0; i < count; ++i) {
-      a += first.integer();
-      const b = a + second.integer();
+      a += numbers.next(0);
+      fresh.push({ a, b: a + numbers.next(1), told: Array.from({ length: 6 }, (_, c) => numbers.next(2 + c)) });
+    }
+    // By bodies; of a pair those that were there before come first.
+    this.touching = [];
+    for (let i = 0, j = 0; i < kept.length || j < fresh.length;) {
+      const old = kept[i], young = fresh[j];
+      const first = !young || (old && (old.a < young.a || (old.a === young.a && old.b <= young.b)));
+      this.touching.push(first ? old : young);
+      if (first) ++i; else ++j;
+    }
+    const { touching } = this, { position } = this.now, { units } = this, n = touching.length;
+    const made = { count: n, a: new Int32Array(n), b: new Int32Array(n), point: new Float64Array(3 * n), normal: new Float32Array(3 * n),
+      level: new Int32Array(n) };
+    touching.forEach(({ a, b, told }, i) => {
       made.a[i] = a - 1;
       made.b[i] = b - 1;
       const beside = this.planes?.[a - 1] ? b - 1 : a - 1;
-      for (const [k, column] of [xs, ys, zs].entries())
-        made.point[3 * i + k] = (position[3 * beside + k] + 4 * this.units.parts * column.integer()) * unit;
-      let x = normalX[i] / 127.5 - 1, z = normalY[i] / 127.5 - 1;
+      for (let k = 0; k < 3; ++k) made.point[3 * i + k] = (position[3 * beside + k] + 4 * units.parts * told[k]) * units.position;
+      let x = told[3] / 127.5 - 1, z = told[4] / 127.5 - 1;
       const y = 1 - Math.abs(x) - Math.abs(z);
       if (y < 0) [x, z] = [Math.sign(x) * (1 - Math.abs(z)), Math.sign(z) * (1 - Math.abs(x))];
       const length = Math.hypot(x, y, z) || 1;
       made.normal.set([x / length, y / length, z / length], 3 * i);
-      made.level[i] = levels.count();
-    }
+      made.level[i] = told[5];
+    });
     return made;
   }
 

@@ -23,6 +23,7 @@ class Player {
     this.camera = new Camera();
     this.pose = new Pose();
     this.lines = new Lines();
+    this.jointLines = new Lines();
     this.frame = 0;
     this.speed = 1;
     this.loops = true;
@@ -172,16 +173,18 @@ class Player {
     const part = before === source.now ? 1 : Math.max(0, Math.min(1, this.frame - before.index));
     this.decoded = performance.now() - started;
     pose.set(before, source.now, part, head, source.seconds);
-    pose.paint(palette, scene, before, source.now, source.seconds, (level) => source.decoder.forceOf(level), 1 / (head.rate * head.substeps));
+    const near = part < 0.5 ? before : source.now;
+    pose.paint(palette, scene, before, source.now, near, source.seconds, (level) => source.decoder.forceOf(level), 1 / (head.rate * head.substeps));
     this.moveCamera(before, source.now, part);
     this.lines.clear();
-    if (this.shows.contacts) this.addContacts(part < 0.5 ? before : source.now);
-    if (this.shows.joints) this.addJoints(source.now);
+    if (this.shows.contacts) this.addContacts(near);
+    this.jointLines.clear();
+    if (this.shows.joints) this.addJoints(near);
     if (this.shows.velocities) this.addVelocities();
     if (this.shows.hits) this.addHits();
     this.addMore();
     const dark = document.documentElement.dataset.theme === 'dark';
-    renderer.draw(this.camera, scene, pose, this.selected, this.lines, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
+    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.jointLines, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
     ++this.drawnFrames;
     this.controls.update();
     if (this.software) renderer.gl.finish();
@@ -235,8 +238,8 @@ class Player {
       const half = size * Math.min(0.25 * Math.sqrt(push / this.markPush), 0.95);
       const point = this.fromEye(Array.from(contacts.point.subarray(3 * i, 3 * i + 3)));
       const normal = Array.from(contacts.normal.subarray(3 * i, 3 * i + 3)), way = scaled(normal, half);
-      this.lines.add(sub(point, way), add(point, way), 1.2, 0.4 * size, PUSHING);
-      this.lines.add(point, point, 3, 0.4 * size, PUSHING);
+      this.lines.add(sub(point, way), add(point, way), 1.1, 0.4 * size, PUSHING);
+      this.lines.add(point, point, Math.max(1.3, Math.min(0.15 * size / (length(point) * (this.renderer.view?.pixel ?? 1e-3)), 5)), 0.4 * size, PUSHING);
     }
   }
 
@@ -245,30 +248,29 @@ class Player {
     scene.joints.forEach((joint, i) => {
       if (now.jointBroken[i]) return;
       const ends = [[joint.a, joint.anchorA], [joint.b, joint.anchorB]].map(([place, anchor]) => {
-        if (place < 0) return { anchor: this.fromEye(anchor), middle: null, reach: 1e30, mass: 0 };
-        const middle = this.fromEye(this.positionOf(place)), plane = scene.bodies[place].plane;
-        return { anchor: add(middle, this.turnedOn(place, anchor)), middle: plane ? null : middle, gone: !pose.exists[place],
-          reach: scene.bodies[place].mass > 0 ? radius[place] : 1e30, mass: scene.bodies[place].mass };
+        if (place < 0) return { anchor: this.fromEye(anchor), middle: null, reach: 0, mass: 0 };
+        const middle = this.fromEye(this.positionOf(place)), { plane, mass } = scene.bodies[place];
+        return { anchor: add(middle, this.turnedOn(place, anchor)), middle: plane ? null : middle, gone: !pose.exists[place], reach: radius[place] ?? 0, mass };
       });
       if (ends.some((end) => end.gone)) return;
       const [a, b] = ends, masses = ends.map((end) => end.mass).filter((mass) => mass > 0);
-      const lift = Math.min(a.reach, b.reach) < 1e29 ? Math.min(a.reach, b.reach) : 0;
+      const reaches = ends.filter((end) => end.mass > 0).map((end) => end.reach), lift = reaches.length ? Math.min(...reaches) : 0;
       const force = this.source.decoder.forceOf(now.jointForce[i] ?? 0);
       const strength = Math.max(0, Math.min(1, Math.log2(1 + force / Math.min(...masses) / this.pull) / DOUBLINGS));
       const mix = (x, y, t) => x.map((v, k) => v + (y[k] - v) * t);
       const color = [...(strength < 0.5 ? mix(LIGHT, LADEN, 2 * strength) : mix(LADEN, HEAVY, 2 * strength - 1)), 1];
       const pixel = this.camera.orthographic ? (this.renderer.view?.pixel ?? 0.01) : length(a.anchor) * (this.renderer.view?.pixel ?? 0.001);
       const dotRadius = Math.max(1.2, Math.min(0.4 * lift / pixel, Math.max(2.2, 3.4 * ratio))), thin = Math.min(Math.max(0.8, 1.2 * ratio), 0.6 * dotRadius);
-      for (const end of ends) if (end.middle) this.lines.add(end.middle, end.anchor, thin, end.reach < 1e29 ? end.reach : 0, color);
-      this.lines.add(a.anchor, b.anchor, thin, lift, color);
+      for (const end of ends) if (end.middle) this.jointLines.add(end.middle, end.anchor, thin, end.reach, color);
+      this.jointLines.add(a.anchor, b.anchor, thin, lift, color);
       if (joint.axis) {
         let x = rotated(joint.frame, [1, 0, 0]);
         if (joint.a >= 0) x = this.turnedOn(joint.a, x);
         const size = Math.max(3 * dotRadius * pixel, Math.min(0.5 * lift, 8 * dotRadius * pixel));
-        this.lines.add(sub(a.anchor, scaled(x, size)), add(a.anchor, scaled(x, size)), thin, lift, [...AXIS, 1]);
+        this.jointLines.add(sub(a.anchor, scaled(x, size)), add(a.anchor, scaled(x, size)), thin, lift, [...AXIS, 1]);
       }
-      this.lines.add(a.anchor, a.anchor, dotRadius, lift, color);
-      this.lines.add(b.anchor, b.anchor, dotRadius, lift, color);
+      this.jointLines.add(a.anchor, a.anchor, dotRadius, lift, color);
+      this.jointLines.add(b.anchor, b.anchor, dotRadius, lift, color);
     });
   }
 

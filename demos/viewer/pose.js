@@ -93,7 +93,8 @@ export class Pose {
     orientation[q + 3] = w / size;
   }
 
-  paint(palette, scene, before, now, seconds, levelToForce, substepSeconds) {
+  // `near`: the one of both moments whose forces are shown.
+  paint(palette, scene, before, now, near, seconds, levelToForce, substepSeconds) {
     const { bodies } = scene, { color, exists, velocity, position } = this, { by } = palette;
     if (this.fixed?.palette !== palette.version || this.fixed.bodies !== bodies.length)
       this.fixed = { palette: palette.version, bodies: bodies.length, colors: bodies.map((body) => palette.fixedColor(body)) };
@@ -117,7 +118,7 @@ export class Pose {
       if (by === 'height') {
         value = position[3 * i + 1];
       } else if (by === 'contact-impulse') {
-        value = levelToForce(now.force[i]) * substepSeconds;
+        value = levelToForce(near.force[i]) * substepSeconds;
       } else if (by === 'spin' || by === 'angular-momentum' || by === 'kinetic-energy') {
         value = this.turning(by, i, bodies[i], before, now, seconds);
       } else {

@@ -1,7 +1,7 @@
 // Draws a moment of a recording with WebGL 2: instances of few meshes, sorted by level of detail, with two light maps.
-import { BOX, CAPSULE, CONE, CYLINDER, FIRST_MESH, FIXED, SPHERE } from './scene.js';
+import { BOX, CAPSULE, CONE, CYLINDER, FIRST_MESH, SPHERE } from './scene.js';
 import * as geometry from './geometry.js';
-import { add, axesOf, clamp, dot, length, rotated, scaled, sub, unit } from './math.js';
+import { axesOf, dot, length, rotated, scaled, sub, unit } from './math.js';
 import { sources } from './shaders.js';
 
 const WORDS = 12, ROW = 1024;  // words of a body in the texture: place, tint, turn, size, number; bodies of a row
@@ -151,12 +151,16 @@ export class Renderer {
       // A hull of few pixels is drawn as a ball.
       this.levels[FIRST_MESH + this.shapesOfMeshes] = mesh.kind === 'hull' ? [[1.2, drawn], [0, -1]] : [[0, drawn]];
     }
-    const flat = scene.bodies.flatMap((body, place) => body.parts.map((part) => ({ ...part, place })));
+    const flat = scene.bodies.flatMap((body, place) => body.parts.map((part) => ({ ...part, place }))).sort((a, b) => a.mesh - b.mesh);
     const count = flat.length;
     const parts = { count, body: new Uint32Array(count), mesh: new Uint32Array(count), size: new Float32Array(3 * count),
       radius: new Float32Array(count), moved: new Uint8Array(count), position: new Float64Array(3 * count), turn: new Float64Array(4 * count),
       place: new Float32Array(3 * count), kind: new Int32Array(count), seen: new Uint8Array(count) };
-    this.ground = [];
+    parts.groups = [];  // parts of a mesh stand side by side: [mesh, from, to]
+    for (let from = 0, to = 0; from < count; from = to) {
+      while (to < count && flat[to].mesh === flat[from].mesh) ++to;
+      parts.groups.push([flat[from].mesh, from, to]);
+    }
     this.bodyRadius = new Float32Array(scene.bodies.length);
     flat.forEach((part, i) => {
       const [x, y, z] = part.size;
@@ -204,44 +208,51 @@ export class Renderer {
   collect(camera, view, pose) {
     const { parts, drawn, gl } = this, [ex, ey, ez] = camera.eye, parallel = camera.orthographic;
     const { back, sides } = view, fx = -back[0], fy = -back[1], fz = -back[2];
-    for (const each of drawn) each.seen = each.total = each.unseen = 0;
-    const { place, kind, seen, body, mesh, radius, moved } = parts, { position, orientation, exists } = pose;
+    for (const each of drawn) each.seen = each.total = 0;
+    const { place, kind, seen, body, radius, moved, groups } = parts, { position, orientation, exists } = pose;
     this.tiny = this.levels[SPHERE][4][1];
     const { detail } = QUALITIES[this.quality], width = view.pixel / detail;
+    const [[[ax, ay, az], aw], [[bx, by, bz], bw], [[cx, cy, cz], cw], [[dx, dy, dz], dw]] = sides;
     let total = 0;
-    for (let i = 0; i < parts.count; ++i) {
-      const b = body[i];
-      if (!exists[b]) {
-        kind[i] = -1;
-        continue;
+    for (const [mesh, from, to] of groups) {
+      const levels = this.levels[mesh].map(([least, chosen]) => [least, chosen < 0 ? this.tiny : chosen]), last = levels.length - 1;
+      const least = Float64Array.from(levels, ([pixels]) => pixels), choices = Int32Array.from(levels, ([, chosen]) => chosen);
+      const counts = new Int32Array(levels.length), visibles = new Int32Array(levels.length);
+      for (let i = from; i < to; ++i) {
+        const b = body[i], p = 3 * b;
+        if (exists[b] === 0) {
+          kind[i] = -1;
+          continue;
+        }
+        let x = position[p] - ex, y = position[p + 1] - ey, z = position[p + 2] - ez;
+        if (moved[i] === 1) {
+          const at = rotated([orientation[4 * b], orientation[4 * b + 1], orientation[4 * b + 2], orientation[4 * b + 3]],
+            [parts.position[3 * i], parts.position[3 * i + 1], parts.position[3 * i + 2]]);
+          x += at[0];
+          y += at[1];
+          z += at[2];
+        }
+        const at = 3 * i, r = radius[i], ahead = fx * x + fy * y + fz * z;
+        place[at] = x;
+        place[at + 1] = y;
+        place[at + 2] = z;
+        const visible = (parallel || ahead > -r) && ax * x + ay * y + az * z + aw > -r && bx * x + by * y + bz * z + bw > -r
+          && cx * x + cy * y + cz * z + cw > -r && dx * x + dy * y + dz * z + dw > -r;
+        let level = 0;
+        if (last > 0) {
+          const pixels = r / (width * (parallel ? 1 : Math.max(ahead - r, 1e-3)));
+          while (level < last && pixels < least[level]) ++level;
+        }
+        kind[i] = choices[level];
+        seen[i] = visible ? 1 : 0;
+        ++counts[level];
+        if (visible) ++visibles[level];
       }
-      let x = position[3 * b] - ex, y = position[3 * b + 1] - ey, z = position[3 * b + 2] - ez;
-      if (moved[i]) {
-        const at = rotated([orientation[4 * b], orientation[4 * b + 1], orientation[4 * b + 2], orientation[4 * b + 3]],
-          [parts.position[3 * i], parts.position[3 * i + 1], parts.position[3 * i + 2]]);
-        x += at[0];
-        y += at[1];
-        z += at[2];
+      for (let level = 0; level <= last; ++level) {
+        drawn[choices[level]].total += counts[level];
+        drawn[choices[level]].seen += visibles[level];
+        total += counts[level];
       }
-      place[3 * i] = x;
-      place[3 * i + 1] = y;
-      place[3 * i + 2] = z;
-      const r = radius[i], ahead = fx * x + fy * y + fz * z;
-      let visible = parallel || ahead > -r;
-      for (let k = 0; visible && k < 4; ++k) {
-        const [n, w] = sides[k];
-        visible = n[0] * x + n[1] * y + n[2] * z + w > -r;
-      }
-      const pixels = r / (width * (parallel ? 1 : Math.max(ahead - r, 1e-3)));
-      const levels = this.levels[mesh[i]];
-      let level = 0;
-      while (level + 1 < levels.length && pixels < levels[level][0]) ++level;
-      const chosen = levels[level][1] < 0 ? this.tiny : levels[level][1];
-      kind[i] = chosen;
-      seen[i] = visible ? 1 : 0;
-      ++drawn[chosen].total;
-      if (visible) ++drawn[chosen].seen;
-      ++total;
     }
     let first = 0;
     for (const each of drawn) {
@@ -249,29 +260,37 @@ export class Renderer {
       each.nextUnseen = first + each.seen;
       first += each.total;
     }
-    const { floats, words, shorts, texture } = this.room(total), { size } = parts, { color } = pose;
+    const { floats, words, shorts, texture } = this.room(total), { size, mesh } = parts, { color } = pose, { tiny } = this;
+    const nexts = Int32Array.from(drawn, ({ next }) => next), unseens = Int32Array.from(drawn, ({ nextUnseen }) => nextUnseen);
     for (let i = 0; i < parts.count; ++i) {
-      if (kind[i] < 0) continue;
-      const to = drawn[kind[i]], at = (seen[i] ? to.next++ : to.nextUnseen++) * WORDS, b = body[i];
-      floats[at] = place[3 * i];
-      floats[at + 1] = place[3 * i + 1];
-      floats[at + 2] = place[3 * i + 2];
+      const chosen = kind[i];
+      if (chosen < 0) continue;
+      const at = (seen[i] === 1 ? nexts[chosen]++ : unseens[chosen]++) * WORDS, b = body[i], from = 3 * i;
+      floats[at] = place[from];
+      floats[at + 1] = place[from + 1];
+      floats[at + 2] = place[from + 2];
       words[at + 3] = color[b];
       let qx = orientation[4 * b], qy = orientation[4 * b + 1], qz = orientation[4 * b + 2], qw = orientation[4 * b + 3];
-      if (moved[i]) {
+      if (moved[i] === 1) {
         const x = parts.turn[4 * i], y = parts.turn[4 * i + 1], z = parts.turn[4 * i + 2], w = parts.turn[4 * i + 3];
-        [qx, qy, qz, qw] = [qw * x + qx * w + qy * z - qz * y, qw * y + qy * w + qz * x - qx * z, qw * z + qz * w + qx * y - qy * x,
-          qw * w - qx * x - qy * y - qz * z];
+        const rx = qw * x + qx * w + qy * z - qz * y, ry = qw * y + qy * w + qz * x - qx * z, rz = qw * z + qz * w + qx * y - qy * x;
+        qw = qw * w - qx * x - qy * y - qz * z;
+        qx = rx;
+        qy = ry;
+        qz = rz;
       }
       const half = 2 * (at + 4);
       shorts[half] = 32767 * qx;
       shorts[half + 1] = 32767 * qy;
       shorts[half + 2] = 32767 * qz;
       shorts[half + 3] = 32767 * qw;
-      const ball = kind[i] === this.tiny && mesh[i] !== SPHERE ? 0.8 * radius[i] : 0;
-      floats[at + 6] = ball || size[3 * i];
-      floats[at + 7] = ball || size[3 * i + 1];
-      floats[at + 8] = ball || size[3 * i + 2];
+      if (chosen === tiny && mesh[i] !== SPHERE) {
+        floats[at + 6] = floats[at + 7] = floats[at + 8] = 0.8 * radius[i];
+      } else {
+        floats[at + 6] = size[from];
+        floats[at + 7] = size[from + 1];
+        floats[at + 8] = size[from + 2];
+      }
       words[at + 9] = b + 1;
     }
     gl.activeTexture(gl.TEXTURE2);
@@ -411,8 +430,8 @@ export class Renderer {
     }
   }
 
-  // `pose`: of bodies, in metres of the world; `selected`: place of a body, or -1; `lines`: from Lines.
-  draw(camera, scene, pose, selected, lines, accent) {
+  // `pose`: of bodies, in metres of the world; `selected`: place of a body, or -1; `lines`, `joints`: Lines.
+  draw(camera, scene, pose, selected, lines, joints, accent) {
     const { gl, canvas } = this, quality = QUALITIES[this.quality];
     if (gl.isContextLost()) return;
     this.takeScene(scene);
@@ -453,7 +472,8 @@ export class Renderer {
     this.set(this.program('sky'), uniforms);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     if (selected >= 0) this.drawOutline(selected, uniforms, accent);
-    this.drawLines(lines, uniforms);
+    this.drawLines(joints, uniforms, true);
+    this.drawLines(lines, uniforms, false);
     gl.bindVertexArray(null);
   }
   viewUniforms(camera, view) {
@@ -487,7 +507,7 @@ export class Renderer {
     return found;
   }
   drawOutline(place, uniforms, accent) {
-    const { gl } = this, instances = this.instancesOf(place);
+    const { gl, canvas } = this, instances = this.instancesOf(place);
     const drawAll = (inflated) => {
       for (const [each, index] of instances) {
         const program = this.program(`${each.shader} outline`);
@@ -503,21 +523,29 @@ export class Renderer {
     drawAll(0);
     gl.colorMask(true, true, true, true);
     gl.stencilFunc(gl.NOTEQUAL, 1, 255);
-    drawAll(Math.max(2.5, 2.5 * (window.devicePixelRatio || 1)));
+    drawAll(Math.max(1.5, 2.5 * canvas.width / canvas.clientWidth));
     gl.disable(gl.STENCIL_TEST);
     gl.enable(gl.DEPTH_TEST);
   }
 
-  drawLines({ data, count }, uniforms) {
+  // `faintly`: also what bodies hide.
+  drawLines({ data, count }, uniforms, faintly) {
     if (count === 0) return;
     const { gl, lines } = this;
     gl.bindVertexArray(lines.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, data.subarray(0, 12 * count), gl.STREAM_DRAW);
-    this.set(this.program('line'), uniforms);
+    this.set(this.program('line'), { ...uniforms, strength: 1 });
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
+    if (faintly) {
+      this.set(this.program('line'), { strength: 0.3 });
+      gl.depthFunc(gl.GREATER);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+      gl.depthFunc(gl.LEQUAL);
+      this.set(this.program('line'), { strength: 1 });
+    }
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     gl.depthMask(true);
     gl.disable(gl.BLEND);
@@ -585,4 +613,4 @@ export class Lines {
   }
 }
 
-export { add, clamp, FIXED };
+

@@ -390,13 +390,14 @@ precision highp float;
 in vec2 at;
 flat in vec3 shape;
 flat in vec4 color;
+uniform float strength;
 out vec4 out_color;
 void main() {
     float away = length(vec2(at.x - clamp(at.x, 0.0, shape.x), at.y)) - shape.y;
     float cover = clamp(shape.z + 0.5 - away, 0.0, 1.0), inner = clamp(0.5 - away, 0.0, 1.0);
     if (cover <= 0.0) discard;
     vec3 c = mix(vec3(0.01), color.rgb, inner);
-    out_color = vec4(pow(c, vec3(1.0 / 2.2)), color.a * cover * mix(0.75, 1.0, inner));
+    out_color = vec4(pow(c, vec3(1.0 / 2.2)), strength * color.a * cover * mix(0.75, 1.0, inner));
 }`;
 
 export const KINDS = Object.keys(SHAPES);

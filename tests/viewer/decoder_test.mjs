@@ -58,7 +58,17 @@ for (const [scene, seconds] of [['pile --bodies 150', 3], ['bridge', 2], ['cars'
           worstTurn = Math.max(worstTurn, 4 * Math.asin(Math.min(1, Math.hypot(...q.map((x, k) => sign * x - own[k])) / 2)) / errors.angle);
         }
       };
-      await source.scan(check, () => false);
+      const touching = [];
+      const sumOf = ({ contacts }) => contacts && [contacts.count, ...contacts.a, ...contacts.b, ...contacts.point, ...contacts.level].join();
+      await source.scan((moment) => {
+        check(moment);
+        touching[moment.index] = sumOf(moment);
+        for (let i = 0; i < (moment.contacts?.count ?? 0); ++i) {  // beside its bodies
+          const body = source.scene.bodies[moment.contacts.a[i]].plane ? moment.contacts.b[i] : moment.contacts.a[i];
+          const [x, y, z] = [0, 1, 2].map((k) => moment.contacts.point[3 * i + k] - moment.position[3 * body + k] * units.position);
+          assert.ok(Math.hypot(x, y, z) < 60, `a contact ${[x, y, z]} m beside body ${body}`);
+        }
+      }, () => false);
       assert.ok(seen > 1000, `${seen} poses`);
       assert.ok(worst < 1.02 && worstTurn < 1.02, `${worst} and ${worstTurn} of what is told`);
       assert.ok(worst > 0.5);
@@ -70,6 +80,7 @@ for (const [scene, seconds] of [['pile --bodies 150', 3], ['bridge', 2], ['cars'
         }
         assert.equal(source.now.index, Math.min(frame + 1, source.count - 1));
         check(source.now);
+        assert.equal(sumOf(source.now), touching[source.now.index]);
       }
       assert.ok(worst < 1.02 && worstTurn < 1.02);
     } finally {

@@ -118,6 +118,15 @@ test('names are text, also those that would be elements; a click tells of a body
     assert.equal(told.air, 0);
     const graph = await page.evaluate(`document.querySelector('#graphs canvas').getAttribute('aria-label')`);
     assert.match(graph, /Momentum over time, now .* kg m\/s/);
+    // The one contact at the end is where the ball meets the ground, and bears its weight.
+    await page.evaluate('window.scree.seek(60)');
+    await page.until('window.scree.source.now.index === 60');
+    const contact = await page.evaluate(`(() => { const { now, decoder } = window.scree.source, c = now.contacts;
+      return { count: c.count, a: c.a[0], b: c.b[0], point: Array.from(c.point), normal: Array.from(c.normal), force: decoder.forceOf(c.level[0]) }; })()`);
+    assert.deepEqual([contact.count, contact.a, contact.b], [1, 0, 1]);
+    assert.ok(near(contact.point, [0, 0, 0], 0.01), `${contact.point}`);
+    assert.ok(near(contact.normal, [0, 1, 0], 0.02), `${contact.normal}`);
+    assert.ok(Math.abs(contact.force / told.mass - 9.81) < 1.2, `${contact.force}`);
     // Nothing is there: no body is chosen.
     await page.click(640, 30);
     await page.until('window.scree.selected === -1');
@@ -236,9 +245,9 @@ test('light and dark differ, by the system and by choice', async () => {
   const page = async (dark) => {
     let ink;
     await on(url, { dark }, async (opened) => {
-      ink = await opened.evaluate('getComputedStyle(document.getElementById('bar')).backgroundColor');
+      ink = await opened.evaluate('getComputedStyle(document.getElementById("bar")).backgroundColor');
       const chosen = await opened.evaluate(`(() => { const t = document.getElementById('theme'); t.value = '${dark ? 'light' : 'dark'}';
-        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.getElementById('bar')).backgroundColor;
+        t.dispatchEvent(new Event('change')); const ink = getComputedStyle(document.getElementById("bar")).backgroundColor;
         t.value = 'auto'; t.dispatchEvent(new Event('change')); return ink; })()`);
       assert.notEqual(chosen, ink);
     });

@@ -159,12 +159,11 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
-        .add_option(
-            "--html", options.html,
-            "A page that plays the run in any browser, without a network: the bodies to look at from all sides, their "
-            "momentum, speed and forces over time. Poses to a few parts in a thousand of a body, as the page tells. Takes "
-            "--fps, --color and its like, --show, --sky, --sun and the camera; --show contacts records every contact "
-            "(as it does of up to 1000 bodies).")
+        .add_option("--html", options.html,
+                    "A page, NAME.html, that plays the run in any browser without a network: bodies from all sides, and their "
+                    "momentum, speed and forces over time. Poses are within a few thousandths of a body's size; the page tells "
+                    "its errors. Takes --fps (as near as whole steps allow), --color and its like, --show, --sky, --sun and the "
+                    "camera. Contacts are recorded of at most 2000 bodies, or with --show contacts.")
         ->group(group);
     command
         .add_option("--cameras", options.cameras,

@@ -15,7 +15,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::size_t most_with_contacts = 1000;       // bodies of which all contacts are recorded unasked
+constexpr std::size_t most_with_contacts = 2000;       // bodies of which all contacts are recorded unasked
 constexpr int usual_width = 1280, usual_height = 720;  // of pictures, for a camera that sees the whole scene
 
 std::function<host::Camera(double)> camera_of(const PictureOptions& options, const LoadedScene& subject, const World& world) {
