@@ -44,6 +44,13 @@ private:
         std::array<double, 6> exact{};
         std::array<std::int32_t, 6> told{};
     };
+
+public:
+    using ContactsTold = std::vector<TouchingPoint>;
+    // Readers of different rates have been told of different contacts.
+    void exchange_told(ContactsTold& told) { touching_.swap(told); }
+
+private:
     std::vector<TouchingPoint> touching(const World& world, const FrameUnits& units,
                                         const std::vector<Follower>& followers) const;
     std::uint32_t mesh_of(std::string& block, const void* key, const Shape& shape);

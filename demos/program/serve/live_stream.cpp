@@ -150,7 +150,11 @@ void LiveStream::encode(const World* world) {
         frame.count(moment_.step);
         frame.u8((audience.whole ? 1u : 0u) | (world ? 2u : 0u) | (moment_.has_joints ? 4u : 0u) | (moment_.camera ? 8u : 0u));
         lane.encoder->encode(frame, moment_.bodies, audience.whole);
-        if (world) chunks_.add_contacts(frame, *world, lane.units, lane.encoder->followers());
+        if (world) {
+            chunks_.exchange_told(lane.contacts);
+            chunks_.add_contacts(frame, *world, lane.units, lane.encoder->followers(), audience.whole);
+            chunks_.exchange_told(lane.contacts);
+        }
         if (moment_.has_joints) {
             frame.count(moment_.joint_forces.size());
             frame.part(moment_.broken.row);

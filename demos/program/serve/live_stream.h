@@ -65,6 +65,7 @@ private:
         FrameUnits units;
         std::unique_ptr<FrameEncoder> encoder;
         LevelTrack joints;
+        WorldChunks::ContactsTold contacts;
         std::string head;
         ChunkBytes events;  // since its last frame
         std::size_t event_count = 0;

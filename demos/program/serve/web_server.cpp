@@ -39,7 +39,7 @@ using beast::error_code;
 using Socket = websocket::stream<beast::tcp_stream>;
 
 constexpr std::size_t most_connections = 64;  // beside viewers
-constexpr std::size_t most_heard = 4096;      // messages that wait to be heard, of all viewers
+constexpr std::size_t most_heard = 4096;      // messages of a viewer that wait to be heard, as while a scene is read
 constexpr std::size_t most_of_header = 8192;  // bytes
 constexpr auto patience = std::chrono::seconds(10);
 constexpr auto farewell = std::chrono::seconds(2);
@@ -126,6 +126,7 @@ struct WebServer::Impl {
     std::mutex mutex{};
     std::condition_variable heard_something{};
     std::vector<Heard> heard{};
+    std::map<std::uint64_t, std::size_t> unheard{};  // messages in it, by viewer
 
     std::thread thread{};
 
@@ -150,7 +151,7 @@ struct WebServer::Impl {
     // False: too much waits already.
     bool tell(Heard what) {
         const std::lock_guard lock(mutex);
-        if (what.kind == Heard::Kind::said && heard.size() >= most_heard) return false;
+        if (what.kind == Heard::Kind::said && ++unheard[what.viewer] > most_heard) return false;
         heard.push_back(std::move(what));
         heard_something.notify_one();
         return true;
@@ -467,6 +468,7 @@ bool WebServer::is_open_to_others() const {
 std::vector<Heard> WebServer::hear(std::chrono::steady_clock::time_point until) {
     std::unique_lock lock(interior_->mutex);
     interior_->heard_something.wait_until(lock, until, [this] { return !interior_->heard.empty(); });
+    interior_->unheard.clear();
     return std::exchange(interior_->heard, {});
 }
 
