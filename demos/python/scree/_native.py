@@ -317,7 +317,7 @@ class World:
             handles = (ctypes.c_void_p * len(scenes))(*(one._handle for one in scenes))
             check(LIBRARY.scree_world_create_copies(handles, len(scenes), _byref(options), _byref(handle)))
         self._handle = handle.value
-        self._left: Optional[threading.Thread] = None
+        self._left: Optional[threading.Event] = None  # set when the step aside is done; an interrupted join() would call its thread ended
         self._left_error: Optional[Exception] = None
         self._exports: List[Optional[int]] = []  # handles of those that are recorded
         self._batch = 1
@@ -331,8 +331,8 @@ class World:
     # ---- calls
     def _wait(self) -> None:
         """For steps that an interrupt left."""
-        while self._left is not None and self._left.is_alive():
-            self._left.join(_HEARING)
+        while self._left is not None and not self._left.wait(_HEARING):
+            pass
         self._left = None
         error, self._left_error = self._left_error, None
         if error is not None:
@@ -416,17 +416,24 @@ class World:
             self._stepping = False
 
     def _step_aside(self, batch: int) -> None:
+        done = threading.Event()
+
         def work() -> None:
             result = LIBRARY.scree_world_step(self._handle, batch, None, None)
             if result:
                 self._left_error = error_of(result)
+            done.set()
 
-        self._left = threading.Thread(target=work, daemon=True)
-        self._left.start()
+        self._left = done
+        try:
+            threading.Thread(target=work, daemon=True).start()
+        except RuntimeError:  # no thread can be had
+            self._left = None
+            raise
         self._wait()
 
     def is_stepping(self) -> bool:
-        return self._left is not None and self._left.is_alive()
+        return self._left is not None and not self._left.is_set()
 
     def export_to(self, path: str, every: int, clips: int) -> Export:
         handle = ctypes.c_void_p()
