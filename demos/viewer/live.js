@@ -171,7 +171,7 @@ const livePlayer = (Player) => class extends Player {
     source.onDecoded = () => this.history?.add();
     this.shownScene = source.scene.head.title;
   }
-  get drives() { return this.source.state !== null && this.source.hello.you === this.source.state.driver; }
+  get drives() { return !this.source.ended && this.source.state !== null && this.source.hello.you === this.source.state.driver; }
   get time() { return this.source.now.time; }
   tell(message) { this.source.tell(message); }
   newHistory(place) { return new LiveHistory(this.source, place); }

@@ -172,9 +172,9 @@ export class LivePanel {
     const watchers = others === 0 ? '' : ` · ${others} other${others === 1 ? '' : 's'}`;
     const role = drives ? 'You drive' : server.driver === 0 ? 'Nobody drives' : 'You watch';
     this.set(this.role, role + watchers);
-    this.set(this.badge, `${source.ended ? 'Ended' : server.paused ? 'Paused' : 'Live'} · ${role}${watchers}`);
+    this.set(this.badge, source.ended ? 'Ended' : `${server.paused ? 'Paused' : 'Live'} · ${role}${watchers}`);
     this.wheel.textContent = drives ? 'Hand over' : 'Take over';
-    this.wheel.disabled = !drives && server.driver !== 0;
+    this.wheel.disabled = source.ended || (!drives && server.driver !== 0);
     this.controlsOfDriver.disabled = !drives;
     for (const id of ['play', 'step', 'restart', 'time', 'speed']) element(id).disabled = !drives;
     this.restore.disabled = server.kept === null;

@@ -209,6 +209,7 @@ test('a page whose server ends says so', { timeout: 120000 }, async () => {
   await live.stop();
   await page.until("!document.getElementById('trouble').hidden");
   assert.match(await text(page, 'trouble'), /has ended/);
+  await page.until("document.getElementById('badge').textContent === 'Ended' && document.getElementById('play').disabled");
   assert.deepEqual(page.troubles, []);
   await page.close();
 });
