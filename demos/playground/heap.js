@@ -17,7 +17,7 @@ const wall = (x, z, along) => ({
 // The layers of a heap fall into a square pit, one after the other.
 export function heapOf(Scene, { shape, count }) {
   const scene = new Scene(), next = numbers(7), names = shape === 'mixed' ? Object.keys(SHAPES) : [shape];
-  const side = Math.max(3, Math.ceil(Math.cbrt(count * 0.8))), half = 0.45 * side + 0.6;
+  const side = Math.max(3, Math.ceil(Math.cbrt(3 * count))), half = 0.45 * side + 0.6;
   scene.addBodies({ motion: 'fixed', name: 'ground', shape: { plane: {} } });
   for (const way of [-1, 1]) {
     scene.addBodies({ ...wall(half, half, 'x'), position: [0, 1, way * half] });
@@ -25,7 +25,7 @@ export function heapOf(Scene, { shape, count }) {
   }
   const positions = names.map(() => []), orientations = names.map(() => []);
   for (let i = 0; i < count; ++i) {
-    const layer = Math.floor(i / (side * side)), within = i % (side * side), kind = i % names.length;
+    const layer = Math.floor(i / (side * side)), within = i % (side * side), kind = Math.floor(next() * names.length);
     positions[kind].push([(within % side - (side - 1) / 2) * 0.85 + 0.1 * next(), 0.6 + 0.9 * layer,
       (Math.floor(within / side) - (side - 1) / 2) * 0.85 + 0.1 * next()]);
     const turn = [next() - 0.5, next() - 0.5, next() - 0.5, next() + 0.2], size = Math.sqrt(turn.reduce((sum, x) => sum + x * x, 0));

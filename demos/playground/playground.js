@@ -143,7 +143,7 @@ class Playground {
     element('bits-here').textContent = hash;
     element('bits-native').textContent = native ?? 'none on record';
     box.className = `panel ${native === undefined ? '' : native === hash ? 'same' : 'other'}`;
-    element('bits-verdict').textContent = native === undefined ? 'Compare it with the program on your machine.'
+    element('bits-verdict').textContent = native === undefined ? source.heap ? 'Heaps are not on record; demos are.' : 'Compare: scree run FILE --steps 12 --report -'
       : native === hash ? '✓ same bits as on every machine' : '✗ other bits';
     this.checked = { native, here: hash, ms };
   }

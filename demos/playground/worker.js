@@ -8,8 +8,9 @@ import { SHAPES } from './shapes.js';
 
 const MOST_THROWN = 60, BUFFERS = 2, LONGEST = 0.1;  // s, of time that is caught up with
 const CHECKED_STEPS = 12, CHECKED_BODIES = 300;      // as of demos/records/hashes.txt
+const SCRIPTED = ['fountain'];                       // whose bodies are born by a script of the program
 
-let scree;
+let scree, counts;  // of demos whose number of bodies may be chosen: the usual one
 let world, live, drawn, placeOf, views, thrown, grips, settings, buffers = [], rate = 60;
 let playing = false, speed = 1, due = 0, timer = null, wantsFrame = true;
 let spent = [], lateSteps = 0;
@@ -195,7 +196,7 @@ const asked = {
   },
   // The hash after some steps of a world of its own, whatever happens in the one that is shown.
   check({ source }) {
-    const scene = sceneOf(source.demo ? { demo: source.demo, bodies: CHECKED_BODIES } : source), begun = performance.now();
+    const scene = sceneOf(source.demo ? { demo: source.demo, bodies: counts.has(source.demo) ? CHECKED_BODIES : 0 } : source), begun = performance.now();
     const other = new scree.World(scene);
     try {
       other.step(CHECKED_STEPS);
@@ -230,12 +231,12 @@ onmessage = async ({ data }) => {
   try {
     if (data.kind === 'begin') {
       const lines = [];
-      scree = await load({ threads: data.threads, folder: data.folder, print: (line) => lines.push(line), printError: (line) => lines.push(line) });
+      const options = { folder: data.folder, print: (line) => lines.push(line), printError: (line) => lines.push(line) };
+      scree = data.threads > 1 ? await load({ ...options, threads: data.threads }).catch(() => load(options)) : await load(options);
       for (let i = 0; i < BUFFERS; ++i) buffers.push(new ArrayBuffer(0));
       scree.command(['list']);
-      // Those whose number of bodies may be chosen, with the usual one.
-      const counts = new Map(lines.map((line) => line.trim().split(/\s+/)).filter(([, , word]) => word === '--bodies').map(([name, count]) => [name, Number(count)]));
-      const demos = scree.describe('demos').map(([name, line]) => ({ name, line, count: counts.get(name) ?? 0 }));
+      counts = new Map(lines.map((line) => line.trim().split(/\s+/)).filter(([, , word]) => word === '--bodies').map(([name, count]) => [name, Number(count)]));
+      const demos = scree.describe('demos').filter(([name]) => !SCRIPTED.includes(name)).map(([name, line]) => ({ name, line, count: counts.get(name) ?? 0 }));
       return tell('ready', { version: scree.version, threads: scree.threads, demos });
     }
     await asked[data.kind](data);

@@ -207,6 +207,33 @@ test('copies run side by side', () => {
   assert.equal(new Set(world.copyHashes()).size, 1);
 });
 
+test('recordings are pages, and live ones give chunks', () => {
+  const world = new World(falling());
+  const names = (bytes) => {
+    const found = [];
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+    for (let at = 0; at < bytes.length; at += 8 + view.getUint32(at + 4, true)) found.push(String.fromCharCode(...bytes.subarray(at, at + 4)));
+    return found;
+  };
+  const live = world.record({ live: 1 });
+  assert.deepEqual(names(live.take(true)), ['head', 'body', 'fram']);
+  world.step(10);
+  assert.deepEqual(names(live.take(true)), ['fram']);
+  assert.equal(live.take().length, 0);
+  assert.throws(() => live.page(), (error) => error.kind === 'IMPOSSIBLE');
+  const recording = world.record({ title: '<a>', fps: 60, contacts: 1 });
+  world.step(20);
+  recording.stop();
+  world.step(20);
+  assert.equal(recording.count(), 21);
+  assert.match(recording.page(), /<title>&lt;a&gt; · scree<\/title>[^]*data-frames="21"/);
+  assert.throws(() => world.record({ sky: 'green' }), /sky.*known/);
+  assert.throws(() => world.record({ look: { sky: 'green' } }), /sky/);
+  recording.dispose();
+  live.dispose();
+  world.dispose();
+});
+
 test('many scenes and worlds take no memory when they are disposed of', () => {
   const run = () => {
     const scene = falling();
