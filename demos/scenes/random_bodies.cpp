@@ -103,17 +103,15 @@ Body random_assorted(float reach, Random& random) {
     if (kind < 4) {
         const float radius = size * random.between(0.45f, 0.8f);
         body.shape = Cylinder{radius, std::sqrt(size * size - radius * radius)};
-        body.rolling_resistance = 0.05f * reach;
     } else if (kind < 5) {
         const float height = size * random.between(0.8f, 1.3f);
         body.shape = Cone{std::sqrt(size * size - 0.0625f * height * height) * 0.8f, height};
-        body.rolling_resistance = 0.05f * reach;
     } else if (kind < 6) {
         body.shape = stone(0.9f * size, random);
     } else {
         body.shape = random_compound(0.8f * size, random);
-        body.rolling_resistance = 0.05f * reach;
     }
+    body.rolling_resistance = 0.05f * reach;  // a stone that touches in two points swings about them without
     return body;
 }
 
