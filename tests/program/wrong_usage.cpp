@@ -91,7 +91,7 @@ TEST_CASE("program: an unknown option or value is answered with what is known", 
     require_refused(run_scree("run wall --color-range -5:1e39"), {"--color-range", "1e39 is out of range"});
     require_refused(run_scree("run wall --seed -1"), {"--seed", "\"-1\""});
     require_refused(run_scree("export wall --seed 18446744073709551616"), {"--seed", "between 0 and 18446744073709551615"});
-    require_refused(run_scree("foo"), {"unknown command \"foo\"", "run, sweep, view, compare, check"});
+    require_refused(run_scree("foo"), {"unknown command \"foo\"", "view, serve, compare, check"});
     require_refused(run_scree("run wall --rate nan"), {"--rate", "between 10 and 1000"});
     require_refused(run_scree("run wall --seconds nan"), {"--seconds"});
     require_refused(run_scree("run wall --color-range nan:1"), {"nan"});
