@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t most_with_contacts = 2000;  // bodies of which all contacts are recorded unasked
 
 demos::PageOptions page_options(WorldObject& object, const scree_record_options& wanted) {
-    if (!(wanted.fps >= 0 && wanted.fps <= 1e6)) refuse("fps: must be between 0 and 1e6 frames a second");
+    if (wanted.fps != 0 && !(wanted.fps >= 1e-3 && wanted.fps <= 1e6))
+        refuse("fps: must be 0, or between 0.001 and 1e6 frames a second");
     if (wanted.contacts < -1 || wanted.contacts > 1)
         refuse("contacts: must be -1, 0 or 1, is " + std::to_string(wanted.contacts));
     const demos::LoadedScene& subject = object.as_subject();

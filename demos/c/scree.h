@@ -533,7 +533,7 @@ typedef struct scree_record_options {
     const char* title;       /* null: the scene's */
     const char* camera_json; /* as of scene files; null: the suggested one */
     const char* look_json;   /* as of scree_picture */
-    double fps;              /* frames a second of time, in whole steps; 0: 30 */
+    double fps;              /* frames a second of time, 0.001 to 1e6, in whole steps; 0: 30 */
     size_t copy;             /* SCREE_ALL_COPIES: all, one beside the other */
     int contacts;            /* 1: recorded, -1: not; 0: of at most 2000 bodies */
     int events;              /* 1: hits and breaks, which takes the world's events */

@@ -158,7 +158,7 @@ TEST_CASE("c: recordings are refused what they cannot do") {
     const World world(balls(1));
     refused(scree_world_record(world, &wanted, nullptr), SCREE_BAD_ARGUMENT, "made");
     wanted.live = 1;
-    for (const double fps : {-1.0, 1e9, static_cast<double>(NAN)}) {
+    for (const double fps : {-1.0, 1e-9, 1e9, static_cast<double>(NAN)}) {
         wanted.fps = fps;
         refused(scree_world_record(world, &wanted, &made), SCREE_BAD_ARGUMENT, "fps");
     }

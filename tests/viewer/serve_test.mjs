@@ -95,7 +95,8 @@ test('serve: the page and the stream are for those with the token, from its own 
   const port = server.url.port, good = `/?token=${server.token}`;
   for (const host of [`localhost:${port}`, 'localhost', '127.0.0.1:9000', '[::1]:1'])  // such as of ssh -L
     assert.equal(await statusOf(good, { Host: host }), 200, host);
-  for (const host of ['evil.example', `evil.example:${port}`, '10.0.0.1', '127.0.0.1.evil.example', 'localhost.', 'localhost@evil', '[::1', ''])
+  for (const host of ['evil.example', `evil.example:${port}`, '10.0.0.1', '127.0.0.1.evil.example', 'localhost.', 'localhost@evil', '[::1', '',
+    '[::1]]:80', '[::1]"><script>alert(1)</script>', '[::1]; script-src *', '127.0.0.1:99999999999', 'localhost:80;'])
     assert.equal(await statusOf(good, { Host: host }), 403, host);
   assert.equal((await server.request(`GET ${good} HTTP/1.1\r\n\r\n`)).status, 403);
   assert.equal((await server.request(`POST ${good} HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n`)).status, 405);

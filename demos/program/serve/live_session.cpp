@@ -301,13 +301,8 @@ void LiveSession::look_after_stream() {
                       streamed_substeps_ == world.settings().substeps && every_ == every;
     if (same) return;
     if (stream_) {
-        const StreamFigures figures = stream_->figures();
-        earlier_figures_.frames += figures.frames;
-        earlier_figures_.bytes += figures.bytes;
-        earlier_figures_.seconds_encoding += figures.seconds_encoding;
-        earlier_figures_.seconds_packing += figures.seconds_packing;
-        earlier_figures_.seconds_looking += figures.seconds_looking;
         stream_->wait();
+        earlier_figures_ += stream_->figures();
     }
     stream_.reset();
     PageOptions page = page_options(options_.pictures, session_.subject(), world, false);
@@ -505,14 +500,7 @@ void LiveSession::write_report() {
     if (options_.report.empty()) return;
     World& world = session_.world();
     StreamFigures all = earlier_figures_;
-    if (stream_) {
-        const StreamFigures figures = stream_->figures();
-        all.frames += figures.frames;
-        all.bytes += figures.bytes;
-        all.seconds_encoding += figures.seconds_encoding;
-        all.seconds_packing += figures.seconds_packing;
-        all.seconds_looking += figures.seconds_looking;
-    }
+    if (stream_) all += stream_->figures();
     const double frames = static_cast<double>(std::max<std::uint64_t>(all.frames, 1));
     const ordered_json json = {{"demo", session_.subject().name},
                                {"backend", world.runner().backend()},
@@ -536,27 +524,34 @@ void LiveSession::write_report() {
 // ---- the clock
 void LiveSession::advance(double seconds) {
     const double pace = static_cast<double>(interaction_.pace), step = step_seconds();
+    if (interaction_.paused) {
+        debt_ = 0;
+        interaction_.advance(0);  // single steps
+        return;
+    }
+    debt_ = std::min(debt_ + seconds * pace, std::max(longest_debt * pace, 1.5 * step));
+    const Clock::time_point begun = Clock::now();
+    while (debt_ >= step && !is_over() && seconds_between(begun, Clock::now()) < longest_work) {
+        debt_ -= step;
+        interaction_.advance(step / pace);  // one step
+        tick();
+    }
+}
+
+// What fails, such as for memory that a step or a frame lacks, pauses the world and is told; viewers then begin anew.
+template <typename Work>
+void LiveSession::attempt(const Work& work) {
     try {
-        if (interaction_.paused) {
-            debt_ = 0;
-            interaction_.advance(0);  // single steps
-            return;
-        }
-        debt_ = std::min(debt_ + seconds * pace, std::max(longest_debt * pace, 1.5 * step));
-        const Clock::time_point begun = Clock::now();
-        while (debt_ >= step && !is_over() && seconds_between(begun, Clock::now()) < longest_work) {
-            debt_ -= step;
-            interaction_.advance(step / pace);  // one step
-            tick();
-        }
+        work();
     } catch (const host::DeviceError&) {
         throw;
     } catch (const UsageError&) {
         throw;
-    } catch (const std::exception& error) {  // such as memory that a step lacks
+    } catch (const std::exception& error) {
         interaction_.paused = true;
         trouble_ = error.what();
         state_is_urgent_ = true;
+        stream_.reset();
     }
 }
 
@@ -565,12 +560,12 @@ void LiveSession::run() {
     while (!is_over()) {
         const bool rests = interaction_.paused || viewers_.empty();
         const double pause = rests ? 0.05 : std::max(0.0, (step_seconds() - debt_) / static_cast<double>(interaction_.pace));
-        for (const Heard& heard : server_.hear(Clock::now() + duration_of(std::min(pause, 0.05)))) hear(heard);
+        for (const Heard& heard : server_.hear(Clock::now() + duration_of(std::min(pause, 0.05)))) attempt([&] { hear(heard); });
         const Clock::time_point now = Clock::now();
         const double seconds = seconds_between(std::exchange(before, now), now);
         if (!viewers_.empty()) {
-            advance(seconds);
-            tick();
+            attempt([&] { advance(seconds); });
+            attempt([&] { tick(); });
         }
         const double passed = seconds_between(paced_at_, now);
         if (passed > 1) {

@@ -62,6 +62,8 @@ private:
     void dismiss(std::uint64_t viewer, const std::string& reason);
     void leave(std::uint64_t viewer);
     void leave_wheel();
+    template <typename Work>
+    void attempt(const Work& work);
     void advance(double seconds);
     void look_after_stream();
     void tick();
@@ -85,7 +87,9 @@ private:
     std::optional<Session::Moment> kept_;
     std::string kept_scene_;
 
-    std::unique_ptr<LiveStream> stream_;
+    std::mutex sent_mutex_;
+    std::vector<std::pair<std::uint64_t, std::size_t>> sent_;  // frames: to whom, bytes; by the encoder
+    std::unique_ptr<LiveStream> stream_;                       // after them: its thread uses them until it ends
     std::uint64_t streamed_beginning_ = 0;
     glm::vec3 streamed_gravity_{0};
     int streamed_substeps_ = 0;
@@ -94,8 +98,6 @@ private:
     std::size_t told_acts_ = 0;
     Clock::time_point told_at_{};
     bool frame_is_due_ = true;
-    std::mutex sent_mutex_;
-    std::vector<std::pair<std::uint64_t, std::size_t>> sent_;  // frames: to whom, bytes; by the encoder
 
     double debt_ = 0;      // s of simulated time that are due
     std::string trouble_;  // of a step that failed

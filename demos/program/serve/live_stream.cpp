@@ -80,6 +80,7 @@ LiveStream::Message LiveStream::head(std::size_t lane) {
 
 bool LiveStream::is_busy() {
     const std::lock_guard lock(mutex_);
+    if (error_) std::rethrow_exception(error_);
     return busy_;
 }
 
@@ -132,9 +133,15 @@ void LiveStream::work() {
             changed_.wait(lock, [this] { return busy_ || ends_; });
             if (!busy_) return;
         }
-        encode(nullptr);
+        std::exception_ptr error;
+        try {
+            encode(nullptr);
+        } catch (...) {
+            error = std::current_exception();
+        }
         {
             const std::lock_guard lock(mutex_);
+            error_ = error;
             busy_ = false;
         }
         changed_.notify_all();

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -27,6 +28,15 @@ namespace scree::demos {
 struct StreamFigures {
     std::uint64_t frames = 0, bytes = 0;  // of frames, encoded once
     double seconds_encoding = 0, seconds_packing = 0, seconds_looking = 0;
+
+    StreamFigures& operator+=(const StreamFigures& more) {
+        frames += more.frames;
+        bytes += more.bytes;
+        seconds_encoding += more.seconds_encoding;
+        seconds_packing += more.seconds_packing;
+        seconds_looking += more.seconds_looking;
+        return *this;
+    }
 };
 
 class LiveStream {
@@ -48,7 +58,8 @@ public:
     LiveStream(const LiveStream&) = delete;
     LiveStream& operator=(const LiveStream&) = delete;
 
-    // Whether the frame before is still being encoded. While it is, nothing may be sent that has to come after it.
+    // Whether the frame before is still being encoded. While it is, nothing may be sent that has to come after it. Throws what
+    // its encoder threw, such as std::bad_alloc; the stream is then of no more use.
     bool is_busy();
     void wait();  // until it is not
     // What has appeared since the last call, as a block for all who know the rest; none.
@@ -93,6 +104,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool busy_ = false, ends_ = false;
+    std::exception_ptr error_;  // of the encoder
     StreamFigures figures_;
     std::thread worker_;
 };

@@ -117,10 +117,6 @@ constexpr double most_bodies = 1e8, most_steps = 1e15;
 
 }  // namespace
 
-bool is_for_everyone(Deed deed) {
-    return deed == Deed::seen || deed == Deed::watch || deed == Deed::pace || deed == Deed::take;
-}
-
 ViewerMessage viewer_message(const std::string& text) {
     const json read = json::parse(text, nullptr, false);
     if (!read.is_object()) refuse("messages are JSON objects");

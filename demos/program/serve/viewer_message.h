@@ -62,6 +62,5 @@ struct ViewerMessage {
 
 // Throws std::invalid_argument with the reason.
 ViewerMessage viewer_message(const std::string& text);
-bool is_for_everyone(Deed deed);
 
 }  // namespace scree::demos

@@ -85,17 +85,19 @@ std::string name_of(std::string_view host) {
     }
     std::string lower;
     for (const char c : name) {
-        const bool fits =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == ':';
+        const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
+                          c == '_' || c == ':';
         if (!fits) return "";
         lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     }
     return lower;
 }
+// Whether nothing but a port, or nothing, follows the name.
 bool has_plain_port(std::string_view host) {
-    const std::size_t at = host.find(']') == host.npos ? host.find(':') : host.find(':', host.find(']'));
-    return at == host.npos || std::all_of(host.begin() + static_cast<std::ptrdiff_t>(at) + 1, host.end(),
-                                          [](char c) { return c >= '0' && c <= '9'; });
+    const std::size_t end = host.find(']');
+    const std::string_view rest = host.substr(end != host.npos ? end + 1 : std::min(host.find(':'), host.size()));
+    return rest.empty() || (rest.size() > 1 && rest.size() < 7 && rest[0] == ':' &&
+                            std::all_of(rest.begin() + 1, rest.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
 using Message = WebServer::Message;
@@ -233,7 +235,7 @@ private:
         socket_.text(!queue_.front().binary);
         socket_.async_write(asio::buffer(*queue_.front().message), [self = shared_from_this()](error_code error, std::size_t) {
             self->writing_ = false;
-            if (error) return self->leave();
+            if (error || !self->joined_) return self->leave();
             self->waiting_ -= std::min(self->waiting_, self->queue_.front().message->size());
             self->queue_.pop_front();
             self->write();
@@ -243,7 +245,7 @@ private:
         closing_ = true;
         if (!std::exchange(joined_, false)) return;
         timer_.cancel();
-        queue_.clear();
+        while (queue_.size() > (writing_ ? 1u : 0u)) queue_.pop_back();  // what is being written must stay
         beast::get_lowest_layer(socket_).close();
         server_.viewers.erase(number_);
         server_.tell({Heard::Kind::left, number_});
@@ -334,6 +336,7 @@ private:
         const auto end = [self = shared_from_this()](error_code, std::size_t) {
             error_code ignored;
             self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+            self->stream_.expires_after(farewell);
             self->drain();
         };
         if (head)
@@ -343,7 +346,6 @@ private:
     }
     // What the other side still sends is read and forgotten, a little: a connection that is closed before loses the answer.
     void drain() {
-        stream_.expires_after(farewell);
         stream_.async_read_some(asio::buffer(rest_), [self = shared_from_this()](error_code error, std::size_t count) {
             self->drained_ += count;
             if (!error && self->drained_ < (std::size_t{1} << 20)) self->drain();
@@ -397,15 +399,14 @@ void WebServer::Impl::listen() {
 void WebServer::Impl::accept() {
     acceptor.async_accept([this](error_code error, tcp::socket socket) {
         if (ending) return;
-        if (!error && requests < most_connections)
-            std::make_shared<Request>(*this, std::move(socket))->begin();
-        else if (error) {  // such as too many open files: try again in a while
+        if (error) {  // such as too many open files: try again in a while
             auto pause = std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
             return pause->async_wait([this, pause](error_code) {
                 if (!ending) accept();
             });
         }
         accept();
+        if (requests < most_connections) std::make_shared<Request>(*this, std::move(socket))->begin();
     });
 }
 

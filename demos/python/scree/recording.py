@@ -53,7 +53,7 @@ class Recording:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the page so far, or raises OSError and leaves no part of it."""
-        self._native.save(os.fspath(path))
+        self._native.save(os.fsdecode(path))
 
     def view(self, height: int = 480) -> "View":
         """The viewer, `height` pixels high, in a notebook's cell; steps that are recorded later appear in it when their cell is done."""
