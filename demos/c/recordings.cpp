@@ -4,16 +4,12 @@
 
 #include "demos/c/json.h"
 #include "demos/c/objects.h"
-#include "demos/film/color_range.h"
-#include "demos/film/style.h"
-#include "host/canvas/canvas.h"
+#include "demos/film/page_parts.h"
 #include "host/files/growing_file.h"
 
 namespace scree::c {
 
 namespace {
-
-constexpr std::size_t most_with_contacts = 2000;  // bodies of which all contacts are recorded unasked
 
 demos::PageOptions page_options(WorldObject& object, const scree_record_options& wanted) {
     if (wanted.fps != 0 && !(wanted.fps >= 1e-3 && wanted.fps <= 1e6))
@@ -21,17 +17,9 @@ demos::PageOptions page_options(WorldObject& object, const scree_record_options&
     if (wanted.contacts < -1 || wanted.contacts > 1)
         refuse("contacts: must be -1, 0 or 1, is " + std::to_string(wanted.contacts));
     const demos::LoadedScene& subject = object.as_subject();
-    const Settings& settings = object.world.settings();
     demos::PageOptions page;
     page.style = style_given(object.shown, wanted.look_json);
-    page.scale = demos::scale_of(page.style, subject, settings, false);
-    for (const char* word : {"momentum", "speed", "spin", "kinetic-energy", "angular-momentum", "height", "contact-impulse"})
-        page.ranges.emplace_back(host::color_by_named(word).value(), demos::color_range(subject, settings, word, false));
-    host::CanvasOptions light;
-    demos::show_light(page.style, light);
-    page.toward_sun = light.toward_sun;
-    page.low = subject.low;
-    page.high = subject.high;
+    demos::take_look(page, subject, object.world.settings(), false);
     page.title = subject.title();
     if (wanted.title != nullptr) page.title = text_of(wanted.title, "title");
     if (wanted.fps > 0) page.fps = wanted.fps;
@@ -46,7 +34,8 @@ demos::PageOptions page_options(WorldObject& object, const scree_record_options&
     }
     page.camera = [camera](double) { return camera; };
     if (const std::optional<std::size_t> copy = copy_of(object.world, wanted.copy)) page.shown = {.first = *copy, .count = 1};
-    page.contacts = wanted.contacts > 0 || (wanted.contacts == 0 && object.world.scene().bodies.size() <= most_with_contacts);
+    page.contacts =
+        wanted.contacts > 0 || (wanted.contacts == 0 && object.world.scene().bodies.size() <= demos::most_with_contacts);
     page.events = wanted.events != 0;
     return page;
 }

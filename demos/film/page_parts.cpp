@@ -1,15 +1,20 @@
-// Head, units and events of recordings and live streams.
+// Look, head, units and events of recordings and live streams.
 #include "demos/film/page_parts.h"
 
 #include <zlib.h>
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <tuple>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/picture_style_fields.h"
+#include "demos/film/color_range.h"
+#include "demos/film/style.h"
+#include "host/canvas/canvas.h"
 
 namespace scree::demos {
 
@@ -86,6 +91,7 @@ struct PageExtent {
 };
 
 std::string packed(const std::string& chunks, int effort, int memory, int strategy) {
+    if (chunks.size() > std::numeric_limits<uInt>::max()) throw std::length_error("a block of a recording has 4 GiB or more");
     z_stream stream{};
     if (deflateInit2(&stream, effort, Z_DEFLATED, 15, memory, strategy) != Z_OK) throw std::bad_alloc();
     std::string out(deflateBound(&stream, static_cast<uLong>(chunks.size())) + 1, '\1');
@@ -101,6 +107,17 @@ std::string packed(const std::string& chunks, int effort, int memory, int strate
 }
 
 }  // namespace
+
+void take_look(PageOptions& page, const LoadedScene& subject, const Settings& settings, bool rehearses) {
+    page.scale = scale_of(page.style, subject, settings, rehearses);
+    for (const char* word : {"momentum", "speed", "spin", "kinetic-energy", "angular-momentum", "height", "contact-impulse"})
+        page.ranges.emplace_back(host::color_by_named(word).value(), color_range(subject, settings, word, false));
+    host::CanvasOptions light;
+    show_light(page.style, light);
+    page.toward_sun = light.toward_sun;
+    page.low = subject.low;
+    page.high = subject.high;
+}
 
 std::string packed_block(const std::string& chunks) {
     return packed(chunks, 6, 8, Z_DEFAULT_STRATEGY);

@@ -1,4 +1,4 @@
-// What recordings and live streams tell in the same way: their head, units, events, and the packing of blocks.
+// What recordings and live streams have alike: their look, head, units, events, and the packing of blocks.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,14 @@
 #include "demos/film/frame_encoder.h"
 #include "demos/film/page_recording.h"
 #include "demos/film/world_chunks.h"
+#include "demos/program/loaded_scene.h"
 
 namespace scree::demos {
+
+// Bodies of which all contacts are recorded unasked.
+constexpr std::size_t most_with_contacts = 2000;
+// Colours, light and the corners of the action, as pictures of `subject` in page.style have them. `rehearses`: as color_range().
+void take_look(PageOptions& page, const LoadedScene& subject, const Settings& settings, bool rehearses);
 
 // A block as it is sent: 1, and the chunks as a zlib stream.
 std::string packed_block(const std::string& chunks);

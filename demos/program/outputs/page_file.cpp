@@ -5,7 +5,7 @@
 
 #include "compute/tables/state.h"
 #include "demos/film/camera.h"
-#include "demos/film/color_range.h"
+#include "demos/film/page_parts.h"
 #include "demos/film/style.h"
 #include "demos/program/exit_status.h"
 #include "host/canvas/canvas.h"
@@ -15,7 +15,6 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::size_t most_with_contacts = 2000;       // bodies of which all contacts are recorded unasked
 constexpr int usual_width = 1280, usual_height = 720;  // of pictures, for a camera that sees the whole scene
 
 std::function<host::Camera(double)> camera_of(const PictureOptions& options, const LoadedScene& subject, const World& world) {
@@ -35,14 +34,7 @@ PageOptions page_options(const PictureOptions& options, const LoadedScene& subje
     page.title = subject.title();
     page.fps = options.fps;
     page.style = style_of(options, subject.style);
-    page.scale = scale_of(page.style, subject, world.settings(), rehearses);
-    for (const char* word : {"momentum", "speed", "spin", "kinetic-energy", "angular-momentum", "height", "contact-impulse"})
-        page.ranges.emplace_back(host::color_by_named(word).value(), color_range(subject, world.settings(), word, false));
-    host::CanvasOptions light;
-    show_light(page.style, light);
-    page.toward_sun = light.toward_sun;
-    page.low = subject.low;
-    page.high = subject.high;
+    take_look(page, subject, world.settings(), rehearses);
     page.camera = camera_of(options, subject, world);
     page.events = world.runner().ranks() == nullptr;
     page.contacts = shows(page.style, Overlay::contacts) || world.scene().bodies.size() <= most_with_contacts;
