@@ -8,18 +8,20 @@ using scree::program::run_scree;
 using scree::program::says;
 
 TEST_CASE("program: serve prints an address with a token, and an interruption ends it") {
-    const Outcome run = run_scree("serve wall --backend cpu --port 0", "timeout --preserve-status -s INT 2");
-    INFO(run.errors);
-    if (run.status == 2) {  // built without Boost or without esbuild
-        CHECK(says(run.errors, "was built without"));
-        CHECK(says(run.errors, "install "));
-        WARN("built without its server");
-        return;
+    for (int i = 0; i < 3; ++i) {  // the server's thread and its owner end together, in either order
+        const Outcome run = run_scree("serve wall --backend cpu --port 0", "timeout --preserve-status -s INT 2");
+        INFO(run.errors);
+        if (run.status == 2) {  // built without Boost or without esbuild
+            CHECK(says(run.errors, "was built without"));
+            CHECK(says(run.errors, "install "));
+            WARN("built without its server");
+            return;
+        }
+        CHECK(run.status == 130);
+        CHECK(run.output.starts_with("http://127.0.0.1:"));
+        CHECK(says(run.output, "/?token="));
+        CHECK(run.errors.empty());  // no deadline was met
     }
-    CHECK(run.status == 130);
-    CHECK(run.output.starts_with("http://127.0.0.1:"));
-    CHECK(says(run.output, "/?token="));
-    CHECK(run.errors.empty());
 }
 
 TEST_CASE("program: serve refuses what it cannot serve before it listens") {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -117,6 +118,8 @@ struct WebServer::Impl {
     std::size_t joining = 0;   // handshakes
     std::size_t requests = 0;  // connections that have no answer yet
     asio::io_context context{1};
+    // Keeps the thread at work after the acceptor has closed: the end waits for its answers.
+    asio::executor_work_guard<asio::io_context::executor_type> staying{context.get_executor()};
     tcp::acceptor acceptor{context};
     bool on_loopback = true;
     std::string own_name{};  // of this machine
