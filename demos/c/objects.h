@@ -20,7 +20,7 @@
 #include "demos/c/call.h"
 #include "demos/c/handles.h"
 #include "demos/film/drawing.h"
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/outputs/export_file.h"

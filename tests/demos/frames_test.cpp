@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "demos/film/frame_encoder.h"
+#include "demos/film/pages/frame_encoder.h"
 
 using namespace scree::demos;
 using glm::vec3;

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 
 namespace scree::demos {
 

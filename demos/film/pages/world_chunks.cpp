@@ -1,5 +1,5 @@
 // Bodies, shapes, contacts and joints of a world as chunks of a recording.
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/world_chunks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "demos/film/chunk_bytes.h"
+#include "demos/film/pages/chunk_bytes.h"
 
 namespace scree::demos {
 

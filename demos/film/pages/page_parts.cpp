@@ -1,5 +1,5 @@
 // Look, head, units and events of recordings and live streams.
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 // Frames of a recording.
-#include "demos/film/frame_encoder.h"
+#include "demos/film/pages/frame_encoder.h"
 
 #include <algorithm>
 #include <cmath>

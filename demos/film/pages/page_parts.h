@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "demos/film/chunk_bytes.h"
-#include "demos/film/frame_encoder.h"
-#include "demos/film/page_recording.h"
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/chunk_bytes.h"
+#include "demos/film/pages/frame_encoder.h"
+#include "demos/film/pages/page_recording.h"
+#include "demos/film/pages/world_chunks.h"
 #include "demos/program/loaded_scene.h"
 
 namespace scree::demos {
