@@ -8,10 +8,12 @@ import { SHAPES } from './shapes.js';
 
 const MOST_THROWN = 60, BUFFERS = 2, LONGEST = 0.1;  // s, of time that is caught up with
 const CHECKED_STEPS = 12, CHECKED_BODIES = 300;      // as of demos/records/hashes.txt
+const MOST_POINTS = 20000;                           // of contacts in a frame
 const SCRIPTED = ['fountain'];                       // whose bodies are born by a script of the program
 
 let scree, counts;  // of demos whose number of bodies may be chosen: the usual one
 let world, live, drawn, placeOf, views, thrown, grips, settings, buffers = [], rate = 60;
+let shows = { contacts: false, joints: false };
 let playing = false, speed = 1, due = 0, timer = null, wantsFrame = true;
 let spent = [], lateSteps = 0;
 const tell = (kind, more = {}, moved = []) => postMessage({ kind, ...more }, moved);
@@ -59,12 +61,25 @@ function frame() {
   }
   return { buffer: room, count, sleepers };
 }
+// Points that touch: places, points, normals, forces (N).
+function touching() {
+  const points = [];
+  for (const { a, b, normal, count, position, force } of world.contacts())
+    for (let k = 0; k < count && points.length < MOST_POINTS; ++k) if (force[k] > 0) points.push([placeOf[a], placeOf[b], position[k], normal, force[k]]);
+  return { count: points.length, a: Int32Array.from(points, ([a]) => a), b: Int32Array.from(points, ([, b]) => b),
+    point: Float32Array.from(points.flatMap(([, , at]) => at)), normal: Float32Array.from(points.flatMap(([, , , normal]) => normal)),
+    force: Float32Array.from(points, ([, , , , force]) => force) };
+}
+// Forces of joints, N; below 0: it is broken.
+const jointForces = () => Float32Array.from(world.joints(), ({ force, broken }) => (broken ? -1 : Math.hypot(...force)));
+
 function send() {
   const sent = frame();
   wantsFrame = sent === null;
   if (!sent) return;
   const pace = spent.length ? [...spent].sort((a, b) => a - b) : [0];
-  tell('frame', { ...sent, steps: world.steps, time: world.time, stepMs: pace[pace.length >> 1], slowestMs: pace[pace.length - 1], late: lateSteps },
+  const more = { touching: shows.contacts ? touching() : null, joints: shows.joints ? jointForces() : null };
+  tell('frame', { ...sent, ...more, steps: world.steps, time: world.time, stepMs: pace[pace.length >> 1], slowestMs: pace[pace.length - 1], late: lateSteps },
     [sent.buffer]);
 }
 function step(count) {
@@ -144,6 +159,10 @@ const asked = {
   step({ count }) {
     step(count);
     send();
+  },
+  show({ shows: wanted }) {
+    shows = wanted;
+    if (world && !playing) send();
   },
   speed({ value }) {
     speed = value;
