@@ -5,7 +5,7 @@ set(length 0)
 if(ESBUILD)
     file(MAKE_DIRECTORY ${WORK})
     foreach(made main.js style.css)
-        execute_process(COMMAND ${ESBUILD} ${SOURCE}/${made} --bundle --minify --charset=utf8 --log-level=warning --target=es2020
+        execute_process(COMMAND ${ESBUILD} ${SOURCE}/${made} --bundle --minify --charset=utf8 --log-level=warning --target=es2020 --loader:.h=text
                                 --outfile=${WORK}/${made} RESULT_VARIABLE failed)
         if(failed)
             message(FATAL_ERROR "esbuild does not bundle ${SOURCE}/${made}")

@@ -98,8 +98,8 @@ test('a body is thrown, and flies', async () => {
     assert.equal((await page.state()).bodies, 3);
     await page.evaluate(`document.getElementById('throw').click()`);
     await page.until('window.scree.state().bodies === 4');
-    const first = await positionOf(page, 3);
-    await page.until(`Math.hypot(...window.scree.positionOf(3).map((x, k) => x - ${JSON.stringify(first)}[k])) > 3`);
+    const { eye } = await page.state();
+    await page.until(`Math.hypot(...window.scree.positionOf(3).map((x, k) => x - ${JSON.stringify(eye)}[k])) > 4`);
     // Many: the oldest fly again.
     await page.evaluate(`for (let i = 0; i < 70; ++i) window.scree.throwAt()`);
     await page.until('window.scree.state().bodies === 63');

@@ -24,7 +24,7 @@ std::string packed_block(const std::string& chunks);
 std::string packed_frame(const std::string& chunks);
 
 // For frames that are `seconds` apart.
-FrameUnits units_of(const World& world, const PageOptions& options, double seconds);
+FrameUnits units_of(const World& world, const PageOptions& options, double seconds, bool crowd = false);
 
 // The JSON of the chunk "head". `start`: the world's time at the first frame, s.
 std::string head_of(World& world, const PageOptions& options, const FrameUnits& units, double seconds, double start);

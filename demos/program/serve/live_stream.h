@@ -73,6 +73,7 @@ public:
 
 private:
     struct Lane {
+        double seconds = 0;  // from frame to frame
         FrameUnits units;
         std::unique_ptr<FrameEncoder> encoder;
         LevelTrack joints;
