@@ -1,5 +1,5 @@
-// The ground: tiles and lines of metres and tens of metres, and of decimetres near the eye. In the words that GLSL of Vulkan and of
-// WebGL have in common (plane_surface.h, demos/viewer/shaders.js).
+// The ground: tiles and lines of metres and tens of metres, and of decimetres near the eye. In the words that GLSL of Vulkan and
+// of WebGL have in common (plane_surface.h, demos/viewer/shaders.js).
 #ifndef SCREE_RENDER_GROUND_H
 #define SCREE_RENDER_GROUND_H
 

@@ -1,8 +1,8 @@
 // Light in the words that GLSL of Vulkan and of WebGL have in common: the program's pictures (light.h) and the pages for browsers
 // (demos/viewer/shaders.js) take it from here.
 //
-// Before it come `frame`, with the members that are named here (frame.h says what they are), orthographic(), and MAP_MARGIN: texels
-// beyond a map's edge that may be sampled.
+// Before it come `frame`, with the members that are named here (frame.h says what they are), orthographic(), and MAP_MARGIN:
+// texels beyond a map's edge that may be sampled.
 #ifndef SCREE_RENDER_SHADING_H
 #define SCREE_RENDER_SHADING_H
 
