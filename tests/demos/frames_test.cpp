@@ -317,8 +317,10 @@ TEST_CASE("recordings: short frames of a crowd have the poses of others, in fewe
 }
 
 TEST_CASE("recordings: numbers that are none, or beyond all bounds, do no harm") {
-    const FrameUnits units = FrameUnits::of(1e-3, 1e6, 0.01, {0, -9.81, 0}, 0);
+    const bool crowd = GENERATE(false, true);
+    const FrameUnits units = FrameUnits::of(1e-3, 1e6, 0.01, {0, -9.81, 0}, 0, crowd);
     FrameEncoder encoder(units);
+    encoder.set_coarse(crowd);
     Decoder decoder(units);
     std::vector<BodyMoment> bodies(3);
     for (BodyMoment& body : bodies) body.exists = true;

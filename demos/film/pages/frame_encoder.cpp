@@ -49,7 +49,7 @@ Three coarse_units(glm::vec3 value, const FrameUnits& units, const Three& before
     Three made;
     for (std::size_t i = 0; i < 3; ++i) {
         const double way = static_cast<double>(value[static_cast<glm::length_t>(i)]) / units.velocity - expected[i];
-        made[i] = std::clamp(expected[i] + step * nearest_unit(way / step), -FrameUnits::most, FrameUnits::most);
+        made[i] = nearest_unit(expected[i] + step * std::round(way / step));
     }
     return made;
 }
