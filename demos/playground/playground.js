@@ -80,7 +80,7 @@ class Playground {
     this.version = version;
     this.threads = threads;
   }
-  on_opened({ chunks, gravity, source, bodies }) {
+  on_opened({ chunks, gravity, source, bodies, chassis }) {
     this.source = source;
     this.scene = new Scene();
     const all = chunksOf(chunks);
@@ -117,6 +117,7 @@ class Playground {
       this.showNumbers();
     }
     this.goHome();
+    this.follow(this.scene.bodies.findIndex(({ id }) => id === chassis));
     this.say(`${element('name').textContent}: ${bodies} bodies`);
   }
   on_scene({ chunks }) {
@@ -244,9 +245,18 @@ class Playground {
     const demo = this.demos.find((one) => one.name === name);
     return demo.count ? { demo: name, bodies: this.ownCount ? count : Math.min(demo.count, MOST_UNASKED) } : { demo: name };
   }
+  // A scene of a file or of a text stands in the list while it is the scene.
+  showFile() {
+    const scenes = element('scene'), shown = [...scenes.options].find(({ value }) => value === '(file)');
+    if (!this.file) return shown?.remove();
+    const option = shown ?? scenes.appendChild(new Option('', '(file)'));
+    option.textContent = this.file.name || 'A pasted scene';
+    scenes.value = '(file)';
+  }
   async open() {
+    this.showFile();
     const source = this.chosen(), name = element('scene').value, demo = this.demos.find((one) => one.name === name);
-    const heap = name === '(heap)' && !this.file;
+    const heap = name === '(heap)';
     element('name').textContent = this.file ? this.file.name || 'A pasted scene' : heap ? 'A heap' : name[0].toUpperCase() + name.slice(1);
     element('line').textContent = this.file || heap ? '' : demo.line;
     element('count').disabled = Boolean(this.file) || !(heap || demo.count);
@@ -331,6 +341,24 @@ class Playground {
   }
 
   // ---- view and hands
+  // The view goes with a body; -1: with none.
+  follow(place) {
+    this.follows = place;
+    this.followed = null;
+    this.change();
+  }
+  toggleFollow() {
+    const on = this.follows !== this.selected && this.selected >= 0;
+    this.follow(on ? this.selected : -1);
+    this.say(on ? `following ${this.scene.bodies[this.selected].label}` : 'following no body');
+  }
+  keepFollowing() {
+    const { follows } = this;
+    if (!(follows >= 0) || !this.pose.exists[follows]) return;
+    const at = this.positionOf(follows);
+    if (this.followed) this.camera.move(sub(at, this.followed));
+    this.followed = at;
+  }
   goHome() {
     const { low, high } = this.scene.head, middle = scaled(add(low, high), 0.5);
     this.camera.set(this.first ?? { eye: add(middle, scaled([0.55, 0.4, 0.75], 1.4 * length(sub(high, low)))), target: middle, fov: 45, orthographic: false });
@@ -413,6 +441,7 @@ class Playground {
     pose.shown = 0;
     for (let i = 0; i < frame.count; ++i) pose.shown += pose.exists[i];
     pose.paint(palette, scene, null, null, 1, null, 1);
+    this.keepFollowing();
     this.lines.clear();
     this.jointLines.clear();
     const { touching, joints } = frame;
@@ -495,9 +524,12 @@ class Playground {
     on('ask', 'click', () => element('help').showModal());
     on('paste', 'click', () => element('pasting').showModal());
     on('use', 'click', async () => {
+      const before = [this.file, element('scene').value];
       this.file = { name: '', json: element('text').value };
       element('pasting').close();
-      if (!(await this.open())) this.file = null;
+      if (await this.open()) return;
+      [this.file, element('scene').value] = before;
+      this.showFile();
     });
     followTheme(() => this.change());
     followPointers(this.canvas, this);
@@ -552,7 +584,7 @@ class Playground {
         this.drop();
         this.select(-1);
       },
-      n: () => this.selectNext(1), p: () => this.selectNext(-1), g: () => this.grabChosen(), t: () => this.throwAt(), r: () => this.open(),
+      f: () => this.toggleFollow(), n: () => this.selectNext(1), p: () => this.selectNext(-1), g: () => this.grabChosen(), t: () => this.throwAt(), r: () => this.open(),
       k: () => this.toggle('contacts'), j: () => this.toggle('joints'), v: () => this.toggle('velocities'),
       c: () => {
         const { options, selectedIndex } = element('color');
@@ -567,7 +599,7 @@ class Playground {
     const body = this.scene?.bodies[this.selected];
     return { ready: Boolean(this.frame), pictures: this.pictures, frames: this.frames, steps: this.frame?.steps ?? 0, time: this.frame?.time ?? 0,
       bodies: this.pose.shown ?? 0, sleepers: this.frame?.sleepers ?? 0, playing: this.playing, threads: this.threads, checked: this.checked,
-      picked: body ? body.label : null, grabs: this.grabs?.place ?? -1, source: this.source, given: { ...this.given }, eye: [...this.camera.eye],
+      picked: body ? body.label : null, grabs: this.grabs?.place ?? -1, follows: this.follows ?? -1, source: this.source, given: { ...this.given }, eye: [...this.camera.eye],
       stepMs: this.frame?.stepMs ?? 0, late: this.frame?.late ?? 0, stepsPerSecond: this.stepsPerSecond ?? 0, quality: this.renderer.quality,
       color: this.palette?.by, troubles: this.troubles, shown: { ...this.shows }, touching: this.frame?.touching?.count ?? 0,
       lines: this.lines.count, jointLines: this.jointLines.count };

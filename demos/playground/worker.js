@@ -146,6 +146,7 @@ function apply(given) {
 const asked = {
   async open({ source, given }) {
     const scene = sceneOf(source), made = new scree.World(scene, source.heap ? {} : undefined);
+    const chassis = source.json !== undefined && scene.count('vehicles') > 0 ? scene.get('scene').vehicles[0].chassis : undefined;
     scene.dispose();
     dropViews();
     live?.dispose();
@@ -162,7 +163,7 @@ const asked = {
     const chunks = live.take(true);
     take(chunks);
     due = performance.now() / 1000;
-    tell('opened', { chunks, gravity, friction: settings.friction_factor ?? 1, bodies: world.count('bodies_there'), source });
+    tell('opened', { chunks, gravity, friction: settings.friction_factor ?? 1, bodies: world.count('bodies_there'), source, chassis });
     send();
     if (playing) plan();
   },

@@ -58,6 +58,7 @@ for (const lesson of lessons)
       assert.equal(troubles, 0);
       assert.equal(await page.evaluate(`document.getElementById('name').textContent`), `${lesson}.json`);
       await page.until('window.scree.state().steps > 5', 120000);
+      assert.equal((await page.state()).follows >= 0, lesson === 'car');  // the view goes with the vehicle
     });
   });
 
