@@ -20,7 +20,7 @@
 #include "demos/c/call.h"
 #include "demos/c/handles.h"
 #include "demos/film/drawing.h"
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/outputs/export_file.h"
@@ -57,6 +57,7 @@ struct WorldObject {
     std::vector<std::shared_ptr<demos::Animation>> exports;       // being recorded
     std::vector<std::weak_ptr<demos::PageRecording>> recordings;  // likewise; their handles hold them
     std::atomic<std::size_t> views = 0;                           // that look into its tables
+    demos::Script before_step;                                    // of a demo that it follows
     std::shared_mutex in_use;
 
     const demos::LoadedScene& as_subject();
@@ -78,6 +79,8 @@ struct RecordingObject {
     std::mutex in_use;
 };
 
+// Throws Failure.
+demos::LoadedScene demo_given(const std::string& name, std::size_t bodies, std::uint64_t seed);
 // A camera of the caller, and the scene's style with what a look of it changes. Throw Failure.
 host::Camera camera_given(const char* json, const char* name);
 PictureStyle style_given(const SceneDocument& shown, const char* look_json);

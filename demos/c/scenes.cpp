@@ -326,6 +326,15 @@ std::shared_ptr<SceneObject> loaded(const std::string& path, const scree_load_op
 }
 
 std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bodies, std::uint64_t seed) {
+    const demos::LoadedScene subject = demo_given(name, bodies, seed);
+    std::vector<std::string> notes;
+    if (subject.before_step) notes.push_back(name + ": its scripted actions during a run are no part of the scene");
+    return made_scene(demos::document_of(subject), std::move(notes));
+}
+
+}  // namespace
+
+demos::LoadedScene demo_given(const std::string& name, std::size_t bodies, std::uint64_t seed) {
     demos::SceneOptions options;
     options.name = name;
     options.bodies = bodies;
@@ -336,20 +345,13 @@ std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bod
             if (!demo.trial) known.push_back(demo.name);
         refuse(unknown("demo", name, known));
     }
-    const demos::LoadedScene subject = [&] {
-        try {
-            return demos::load_subject(options);
-        } catch (const demos::UsageError& error) {  // of the command line: "--bodies: the demo has"
-            const std::string what = error.what();
-            refuse(what.substr(what.starts_with("--") ? 2 : 0));
-        }
-    }();
-    std::vector<std::string> notes;
-    if (subject.before_step) notes.push_back(name + ": its scripted actions during a run are no part of the scene");
-    return made_scene(demos::document_of(subject), std::move(notes));
+    try {
+        return demos::load_subject(options);
+    } catch (const demos::UsageError& error) {  // of the command line: "--bodies: the demo has"
+        const std::string what = error.what();
+        refuse(what.substr(what.starts_with("--") ? 2 : 0));
+    }
 }
-
-}  // namespace
 
 }  // namespace scree::c
 

@@ -195,6 +195,9 @@ typedef int (*scree_progress)(void* user, uint64_t done, uint64_t count);
 /* Steps of 1 / rate s: 60 a second, or as the settings say. Performs the scene's timed events on the way. progress is called
  * between steps, at least once in 20 ms or step; it and user may be null. */
 SCREE_API scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress progress, void* user);
+/* Later steps perform what the program does in a run of this demo and is no part of its scene: bodies of "fountain" are born and
+ * go. bodies and seed: as of scree_scene_demo. name: null: nothing any more. Such a world can have no views while it steps. */
+SCREE_API scree_result scree_world_follow_demo(scree_world* world, const char* name, size_t bodies, uint64_t seed);
 
 typedef struct scree_world_info {
     size_t size;

@@ -81,9 +81,13 @@ public:
     }
 
     void run() {
-        const bool has_events = !object_.shown.events.empty();
+        const bool has_events = !object_.shown.events.empty() || object_.before_step;
         for (std::uint64_t done = 0; done < count_;) {
-            if (has_events) perform_due(object_.shown.events, object_.world);
+            if (!object_.shown.events.empty()) perform_due(object_.shown.events, object_.world);
+            if (object_.before_step) {
+                object_.require_no_views("stepped after a demo");
+                object_.before_step(object_.world);
+            }
             int batch =
                 has_events ? 1 : static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch_), count_ - done));
             for (const auto& file : object_.exports) batch = std::min(batch, file->steps_until_due(object_.world));
@@ -217,6 +221,18 @@ scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress
     return called([&] {
         const UsedWorld of(world);
         Stepping(*of, count, progress, user).run();
+    });
+}
+
+scree_result scree_world_follow_demo(scree_world* world, const char* name, size_t bodies, uint64_t seed) {
+    return called([&] {
+        const UsedWorld used(world);
+        if (name == nullptr) {
+            used->before_step = nullptr;
+            return;
+        }
+        if (used->world.copies() > 1) refuse("name: a world of copies follows no demo");
+        used->before_step = demo_given(text_of(name, "name"), bodies, seed).before_step;
     });
 }
 

@@ -61,6 +61,7 @@ export interface World {
   readonly steps: number;
   readonly time: number; // s
   step(count?: number): void;
+  followDemo(name?: string, options?: { bodies?: number; seed?: number | bigint }): void;
   info(): { steps: number; time: number; bodies: number; bodiesThere: number; joints: number; copies: number; bufferBytes: number;
     recordsEvents: boolean };
   hash(): Hash;

@@ -138,6 +138,26 @@ TEST_CASE("c: a saved state is restored to the same bits, by bytes, by file and 
     CHECK(world.hash() == later);
 }
 
+TEST_CASE("c: a world that follows the fountain has its bodies, and views are refused meanwhile") {
+    const World world(demo("fountain", 100)), other(demo("fountain", 100));
+    const std::size_t before = world.info().bodies;
+    ok(scree_world_follow_demo(world, "fountain", 100, 1));
+    world.step(25);
+    other.step(25);
+    CHECK(world.info().bodies == before + 3 * (100 / 36));
+    CHECK(other.info().bodies == before);
+    scree_view* view = nullptr;
+    scree_array rows{};
+    ok(scree_world_view(world, "poses", &view, &rows));
+    refused(scree_world_step(world, 1, nullptr, nullptr), SCREE_VIEWED, "stepped after a demo");
+    scree_view_release(view);
+    ok(scree_world_follow_demo(world, nullptr, 0, 1));
+    world.step(25);
+    CHECK(world.info().bodies == before + 3 * (100 / 36));
+    refused(scree_world_follow_demo(world, "fontain", 0, 1), SCREE_BAD_ARGUMENT, "fontain");
+    refused(scree_world_follow_demo(world, "wall", 7, 1), SCREE_BAD_ARGUMENT, "bodies");
+}
+
 TEST_CASE("c: progress is told between steps, and may stop them") {
     const World world(balls(3));
     std::vector<std::uint64_t> told;

@@ -117,6 +117,7 @@ _SIGNATURES = {
     "scree_scene_get": "psp", "scree_scene_count": "psp", "scree_scene_find": "pssp", "scree_scene_body_name": "pzp",
     "scree_scene_vehicle_bodies": "pzp", "scree_scene_check": "pp", "scree_scene_hash": "pp", "scree_scene_save": "ps",
     "scree_mass_properties": "sfpp", "scree_world_create": "ppp", "scree_world_create_copies": "pzpp", "scree_world_step": "pupp",
+    "scree_world_follow_demo": "pszu",
     "scree_world_get_info": "pp", "scree_world_count": "psp", "scree_world_get": "psp", "scree_world_find": "pssp",
     "scree_world_statistics": "pzp", "scree_world_hash": "pp", "scree_world_copy_hashes": "pp", "scree_world_save": "pp",
     "scree_world_restore": "psz", "scree_world_write_checkpoint": "pss", "scree_world_read_checkpoint": "psp", "scree_world_keep_state": "p",

@@ -415,6 +415,9 @@ class World:
         finally:
             self._stepping = False
 
+    def follow_demo(self, name: Optional[str], bodies: int, seed: int) -> None:
+        self._call(LIBRARY.scree_world_follow_demo, _text(name), bodies, seed)
+
     def _step_aside(self, batch: int) -> None:
         done = threading.Event()
 

@@ -195,6 +195,11 @@ class World(Bodies[_native.World]):
         finally:
             bar.close()
 
+    def follow_demo(self, name: Optional[str], bodies: int = 0, seed: int = 1) -> None:
+        """Later steps perform what the program does in a run of this demo and is no part of its scene: the bodies of "fountain" are
+        born and go. None: nothing any more."""
+        self._native.follow_demo(name, count_of(bodies, "bodies"), count_of(seed, "seed"))
+
     def run(self, seconds: float, progress: Optional[bool] = None) -> None:
         """Advances to the step nearest to that many seconds from now."""
         self.step(round(number(seconds, "seconds") * self.settings["rate"]), progress)

@@ -1,5 +1,5 @@
 // Writes a page with the viewer and the frames of a run.
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "demos/film/chunk_bytes.h"
-#include "demos/film/frame_encoder.h"
-#include "demos/film/page_parts.h"
-#include "demos/film/viewer_page.h"
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/chunk_bytes.h"
+#include "demos/film/pages/frame_encoder.h"
+#include "demos/film/pages/page_parts.h"
+#include "demos/film/pages/viewer_page.h"
+#include "demos/film/pages/world_chunks.h"
 #include "host/files/growing_file.h"
 
 namespace scree::demos {

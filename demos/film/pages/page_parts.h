@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "demos/film/chunk_bytes.h"
-#include "demos/film/frame_encoder.h"
-#include "demos/film/page_recording.h"
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/chunk_bytes.h"
+#include "demos/film/pages/frame_encoder.h"
+#include "demos/film/pages/page_recording.h"
+#include "demos/film/pages/world_chunks.h"
 #include "demos/program/loaded_scene.h"
 
 namespace scree::demos {
@@ -24,7 +24,7 @@ std::string packed_block(const std::string& chunks);
 std::string packed_frame(const std::string& chunks);
 
 // For frames that are `seconds` apart.
-FrameUnits units_of(const World& world, const PageOptions& options, double seconds);
+FrameUnits units_of(const World& world, const PageOptions& options, double seconds, bool crowd = false);
 
 // The JSON of the chunk "head". `start`: the world's time at the first frame, s.
 std::string head_of(World& world, const PageOptions& options, const FrameUnits& units, double seconds, double start);

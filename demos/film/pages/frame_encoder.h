@@ -10,19 +10,22 @@
 #include <span>
 #include <vector>
 
-#include "demos/film/chunk_bytes.h"
+#include "demos/film/pages/chunk_bytes.h"
 
 namespace scree::demos {
 
 // What a unit of each number is. A value is told again where readers would be off by more than `slack` units.
 struct FrameUnits {
-    static constexpr double slack = 0.75;
     static constexpr std::int32_t parts = 8;           // of a told unit of position, in which readers go on
-    static constexpr double turn = 1.0 / 2048;         // tangent of half the angle
     static constexpr double orientation = 1.0 / 8192;  // of a quaternion's component
     static constexpr double levels_per_octave = 8;     // of forces
     static constexpr std::int32_t most = 1 << 26;      // units of any number
+    // Of frames that must be short: steps of velocities and of forces, in their units.
+    static constexpr std::int32_t coarse_velocity = 32, coarse_level = 4;
 
+    bool crowd = false;  // of so many bodies that frames may have to be short: set_coarse()
+    double slack = 0.75;
+    double turn = 1.0 / 2048;            // tangent of half the angle
     double position = 1.0 / 1024;        // m
     double velocity = 1.0 / 128;         // m/s: half a frame at this is a part of a unit of position
     std::array<std::int32_t, 3> fall{};  // what gravity adds to a velocity from one frame to the next
@@ -30,13 +33,14 @@ struct FrameUnits {
 
     double part() const { return position / parts; }
     // Units for bodies of this bounding radius, within this distance of the origin, m; frames are `seconds` apart.
-    static FrameUnits of(double radius, double reach, double seconds, glm::dvec3 gravity, double force);
+    // A crowd's poses have the same errors.
+    static FrameUnits of(double radius, double reach, double seconds, glm::dvec3 gravity, double force, bool crowd = false);
 
-    // Greatest errors of a frame: m and m/s along an axis; rad; a ratio minus 1.
+    // Greatest errors of a frame: m and m/s along an axis; rad; a ratio minus 1. Of a crowd those of coarse frames.
     double position_error() const { return slack * position; }
-    double velocity_error() const { return slack * velocity; }
-    static double angle_error();
-    static double force_error();
+    double velocity_error() const { return (crowd ? 0.5 * coarse_velocity : slack) * velocity; }
+    double angle_error() const;
+    double force_error() const;
 };
 
 struct BodyMoment {
@@ -62,7 +66,8 @@ struct Follower {
 // Values such as forces by levels of a logarithmic scale; level 0 is nothing.
 class LevelTrack {
 public:
-    void encode(ChunkBytes& to, std::span<const float> values, double least, bool whole);
+    // `step`: of levels that are told; `slack` in such steps.
+    void encode(ChunkBytes& to, std::span<const float> values, double least, bool whole, double slack, std::int32_t step = 1);
 
 private:
     std::vector<std::int32_t> told_;
@@ -73,6 +78,9 @@ public:
     explicit FrameEncoder(const FrameUnits& units) : units_(units) {}
     // Appends the bodies of a frame. `whole`: readers may begin here.
     void encode(ChunkBytes& to, std::span<const BodyMoment> bodies, bool whole);
+    // Coarse: velocities and forces of later frames in larger steps, where they change much. Poses are as exact as ever.
+    void set_coarse(bool on) { coarse_ = on; }
+    bool is_coarse() const { return coarse_; }
     const std::vector<Follower>& followers() const { return followers_; }
 
 private:
@@ -81,6 +89,7 @@ private:
     void tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodies, const std::vector<bool>& told);
 
     FrameUnits units_;
+    bool coarse_ = false;
     std::vector<Follower> followers_;
     LevelTrack forces_;
     std::vector<float> force_values_;

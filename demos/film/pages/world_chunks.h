@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "compute/world.h"
-#include "demos/film/chunk_bytes.h"
-#include "demos/film/frame_encoder.h"
+#include "demos/film/pages/chunk_bytes.h"
+#include "demos/film/pages/frame_encoder.h"
 #include "demos/program/copies.h"
 
 namespace scree::demos {

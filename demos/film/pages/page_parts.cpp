@@ -1,5 +1,5 @@
 // Look, head, units and events of recordings and live streams.
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 
 #include <zlib.h>
 
@@ -127,9 +127,10 @@ std::string packed_frame(const std::string& chunks) {
     return packed(chunks, 1, 7, Z_RLE);
 }
 
-FrameUnits units_of(const World& world, const PageOptions& options, double seconds) {
+FrameUnits units_of(const World& world, const PageOptions& options, double seconds, bool crowd) {
     const PageExtent extent(world, options.low, options.high);
-    return FrameUnits::of(extent.radius, extent.reach, seconds, glm::dvec3(world.scene().gravity), extent.least_weight / 1024);
+    return FrameUnits::of(extent.radius, extent.reach, seconds, glm::dvec3(world.scene().gravity), extent.least_weight / 1024,
+                          crowd);
 }
 
 std::string head_of(World& world, const PageOptions& options, const FrameUnits& units, double seconds, double start) {
@@ -149,7 +150,7 @@ std::string head_of(World& world, const PageOptions& options, const FrameUnits& 
                         {{"position", units.part()},
                          {"velocity", units.velocity},
                          {"parts", FrameUnits::parts},
-                         {"turn", FrameUnits::turn},
+                         {"turn", units.turn},
                          {"orientation", FrameUnits::orientation},
                          {"fall", units.fall},
                          {"force", units.force},
@@ -157,8 +158,8 @@ std::string head_of(World& world, const PageOptions& options, const FrameUnits& 
                        {"errors",
                         {{"position", units.position_error()},
                          {"velocity", units.velocity_error()},
-                         {"angle", FrameUnits::angle_error()},
-                         {"force", FrameUnits::force_error()}}},
+                         {"angle", units.angle_error()},
+                         {"force", units.force_error()}}},
                        {"low", listed(options.low)},
                        {"high", listed(options.high)},
                        {"colors", colors_of(options)},

@@ -1,5 +1,5 @@
 // Bodies, shapes, contacts and joints of a world as chunks of a recording.
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/world_chunks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -345,7 +345,7 @@ void WorldChunks::add_joints(ChunkBytes& to, const World& world, const FrameUnit
     }
     to.count(joints.size());
     to.part(broken.row);
-    joint_forces_.encode(to, forces, units.force, whole);
+    joint_forces_.encode(to, forces, units.force, whole, units.slack);
 }
 
 }  // namespace scree::demos

@@ -1,5 +1,5 @@
 // Frames of a recording.
-#include "demos/film/frame_encoder.h"
+#include "demos/film/pages/frame_encoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,29 +22,46 @@ std::int32_t nearest_unit(double value) {
     return static_cast<std::int32_t>(std::lround(std::min(value, most)));
 }
 // `expected`, unless the value is too far from it.
-std::int32_t kept_or_nearest_unit(double value, std::int32_t expected) {
-    return std::abs(value - expected) <= FrameUnits::slack ? expected : nearest_unit(value);
+std::int32_t kept_or_nearest_unit(double value, std::int32_t expected, double slack) {
+    return std::abs(value - expected) <= slack ? expected : nearest_unit(value);
 }
 
 Three nearest_units(glm::vec3 value, double unit) {
     return {nearest_unit(static_cast<double>(value.x) / unit), nearest_unit(static_cast<double>(value.y) / unit),
             nearest_unit(static_cast<double>(value.z) / unit)};
 }
-Three kept_or_nearest_units(glm::vec3 value, double unit, const Three& expected) {
+Three kept_or_nearest_units(glm::vec3 value, double unit, const Three& expected, double slack) {
     Three made;
     for (std::size_t i = 0; i < 3; ++i)
-        made[i] = kept_or_nearest_unit(static_cast<double>(value[static_cast<glm::length_t>(i)]) / unit, expected[i]);
+        made[i] = kept_or_nearest_unit(static_cast<double>(value[static_cast<glm::length_t>(i)]) / unit, expected[i], slack);
+    return made;
+}
+// In steps of up to a change that is no fall, so that few distinct numbers are told.
+Three coarse_units(glm::vec3 value, const FrameUnits& units, const Three& before, const Three& expected, const Three& told) {
+    std::int32_t most = 0, step = 1;
+    bool falls = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        most = std::max(most, std::abs(told[i] - expected[i]));
+        falls = falls && std::abs(told[i] - before[i] - units.fall[i]) <= 2;
+    }
+    while (step < FrameUnits::coarse_velocity && 2 * step <= most) step *= 2;
+    if (falls || step == 1) return told;
+    Three made;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double way = static_cast<double>(value[static_cast<glm::length_t>(i)]) / units.velocity - expected[i];
+        made[i] = nearest_unit(expected[i] + step * std::round(way / step));
+    }
     return made;
 }
 
 // The turn from one orientation to another: twice the half angle's tangent along the axis in the body's frame, in units.
-std::array<double, 3> turn_between(const std::array<double, 4>& q, glm::vec4 to) {
+std::array<double, 3> turn_between(const std::array<double, 4>& q, glm::vec4 to, double unit) {
     const double x = static_cast<double>(to.x), y = static_cast<double>(to.y), z = static_cast<double>(to.z),
                  w = static_cast<double>(to.w);
     double rx = q[3] * x - q[0] * w - q[1] * z + q[2] * y, ry = q[3] * y - q[1] * w - q[2] * x + q[0] * z,
            rz = q[3] * z - q[2] * w - q[0] * y + q[1] * x, rw = q[3] * w + q[0] * x + q[1] * y + q[2] * z;
     if (rw < 0) rx = -rx, ry = -ry, rz = -rz, rw = -rw;
-    rw = std::max(rw, 1e-4) * FrameUnits::turn;
+    rw = std::max(rw, 1e-4) * unit;
     return {rx / rw, ry / rw, rz / rw};
 }
 
@@ -105,10 +122,15 @@ void put_places(ChunkBytes& to, const std::vector<std::uint32_t>& places) {
 
 }  // namespace
 
-FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec3 gravity, double least_force) {
+FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec3 gravity, double least_force, bool crowd) {
     FrameUnits units;
+    units.crowd = crowd;
+    if (crowd) {  // larger units and less slack: fewer bits where everything changes, more where little does
+        units.slack /= 1.5;
+        units.turn *= 1.5;
+    }
     const double finest = 4 * reach / most;  // bodies may leave the scene by as much again
-    units.position = largest_power_below(std::clamp(radius / 512, std::max(finest, 1e-6), 1e3));
+    units.position = largest_power_below(std::clamp(radius / 512, std::max(finest, 1e-6), 1e3)) * (crowd ? 1.5 : 1);
     units.velocity = 2 * units.position / (seconds * parts);
     // Gravity adds a whole number of units, so that free flight needs no correction.
     const double added = glm::length(gravity) * seconds;
@@ -122,11 +144,11 @@ FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec
     return units;
 }
 
-double FrameUnits::angle_error() {
+double FrameUnits::angle_error() const {
     return 2 * slack * turn * std::sqrt(3.0);
 }
-double FrameUnits::force_error() {
-    return std::exp2(slack / levels_per_octave) - 1;
+double FrameUnits::force_error() const {
+    return std::exp2((crowd ? 0.5 * coarse_level : slack) / levels_per_octave) - 1;
 }
 
 Three Follower::expected_velocity(const FrameUnits& units) const {
@@ -148,7 +170,7 @@ void Follower::advance(const FrameUnits& units, const Three& new_velocity, const
     position = new_position;
     turn = new_turn;
     if (turn == Three{}) return;
-    const double ux = turn[0] * FrameUnits::turn, uy = turn[1] * FrameUnits::turn, uz = turn[2] * FrameUnits::turn;
+    const double ux = turn[0] * units.turn, uy = turn[1] * units.turn, uz = turn[2] * units.turn;
     const double x = orientation[0], y = orientation[1], z = orientation[2], w = orientation[3];
     const double rx = ((w * ux + x) + y * uz) - z * uy, ry = ((w * uy + y) + z * ux) - x * uz,
                  rz = ((w * uz + z) + x * uy) - y * ux, rw = ((w - x * ux) - y * uy) - z * uz;
@@ -156,7 +178,8 @@ void Follower::advance(const FrameUnits& units, const Three& new_velocity, const
     orientation = {rx / length, ry / length, rz / length, rw / length};
 }
 
-void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double least, bool whole) {
+void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double least, bool whole, double slack,
+                        std::int32_t step) {
     told_.resize(values.size());
     if (whole) std::fill(told_.begin(), told_.end(), 0);
     BitRow changed;
@@ -166,7 +189,8 @@ void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double le
         std::int32_t now = 0;
         if (static_cast<double>(values[i]) >= least) {  // not for what is no number
             const double at = 1 + FrameUnits::levels_per_octave * std::log2(static_cast<double>(values[i]) / least);
-            now = told > 0 ? kept_or_nearest_unit(at, told) : nearest_unit(at);
+            const bool is_near = told > 0 && std::abs(at - told) <= std::max(slack, 0.5 * (step > 1 ? step : 0));
+            now = is_near ? told : std::max(1, step * nearest_unit(at / step));
         }
         changed.add(now != told);
         if (now != told) levels.integer(now - told);
@@ -206,7 +230,7 @@ void FrameEncoder::encode(ChunkBytes& to, std::span<const BodyMoment> bodies, bo
     put_places(to, slept_or_woke);
     tell_whole(to, bodies, fresh, before);
     tell_changes(to, bodies, told);
-    forces_.encode(to, force_values_, units_.force, whole);
+    forces_.encode(to, force_values_, units_.force, whole, units_.slack, coarse_ ? FrameUnits::coarse_level : 1);
 }
 
 void FrameEncoder::tell_whole(ChunkBytes& to, std::span<const BodyMoment> bodies, const std::vector<std::uint32_t>& which,
@@ -221,7 +245,7 @@ void FrameEncoder::tell_whole(ChunkBytes& to, std::span<const BodyMoment> bodies
         follower.falls = false;
         if (i < known.size() && known[i].exists) {  // the next frame is expected to go on like the last
             follower.velocity = known[i].velocity;
-            const std::array<double, 3> exact = turn_between(known[i].orientation, bodies[i].orientation);
+            const std::array<double, 3> exact = turn_between(known[i].orientation, bodies[i].orientation, units_.turn);
             turn = {nearest_unit(exact[0]), nearest_unit(exact[1]), nearest_unit(exact[2])};
             follower.advance(units_, velocity, position, {});
         }
@@ -247,19 +271,20 @@ void FrameEncoder::tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodi
         Follower& follower = followers_[i];
         if (!follower.exists || told[i]) continue;
         const Three expected_velocity = follower.expected_velocity(units_);
-        const Three velocity = kept_or_nearest_units(bodies[i].velocity, units_.velocity, expected_velocity);
+        Three velocity = kept_or_nearest_units(bodies[i].velocity, units_.velocity, expected_velocity, units_.slack);
+        if (coarse_) velocity = coarse_units(bodies[i].velocity, units_, follower.velocity, expected_velocity, velocity);
         const Three expected_position = follower.expected_position(velocity);
         Three of_position, position;
         for (std::size_t k = 0; k < 3; ++k) {  // told in whole units
             const double exact_position =
                 static_cast<double>(bodies[i].position[static_cast<glm::length_t>(k)]) / units_.position;
             const double wrong = exact_position - expected_position[k] / static_cast<double>(FrameUnits::parts);
-            of_position[k] = kept_or_nearest_unit(wrong, 0);
+            of_position[k] = kept_or_nearest_unit(wrong, 0, units_.slack);
             position[k] = expected_position[k] + FrameUnits::parts * of_position[k];
         }
-        const std::array<double, 3> exact = turn_between(follower.orientation, bodies[i].orientation);
+        const std::array<double, 3> exact = turn_between(follower.orientation, bodies[i].orientation, units_.turn);
         Three turn;
-        for (std::size_t k = 0; k < 3; ++k) turn[k] = kept_or_nearest_unit(exact[k], follower.turn[k]);
+        for (std::size_t k = 0; k < 3; ++k) turn[k] = kept_or_nearest_unit(exact[k], follower.turn[k], units_.slack);
         const Three of_velocity = difference(velocity, expected_velocity), of_turn = difference(turn, follower.turn);
         const bool differs = of_velocity != Three{} || of_position != Three{} || of_turn != Three{};
         changed.add(differs);
