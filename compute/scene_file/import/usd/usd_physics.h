@@ -36,7 +36,15 @@ struct UsdCollider {
 struct UsdRigid {
     const UsdPrim* prim;
     std::string path;
-    glm::dmat4 world, above;  // m; above: of its parent
+    glm::dmat4 world, above;           // m; above: of its parent
+    std::size_t carrier = no_carrier;  // of the bodies, that above which it lies
+    bool resets = false;               // its transform leaves out what lies above
+    // Of the root of a prototype of a point instancer: that, which instance it is, and its own transform within.
+    const UsdPrim* instancer = nullptr;
+    std::size_t instance = 0;
+    glm::dmat4 within{1};
+
+    static constexpr std::size_t no_carrier = static_cast<std::size_t>(-1);
 };
 
 // What one walk over the prims finds.
@@ -47,17 +55,8 @@ struct UsdFound {
     std::vector<const UsdPrim*> pairs;                     // prims with PhysicsFilteredPairsAPI
     std::unordered_map<std::string, std::size_t> body_at;  // of the model, by path
 };
-// Walks all prims that are there. Adds bodies, without shapes and masses, to the model.
-UsdFound found_in(const UsdStage& stage, const UsdUnits& units, Model& model, Notes& notes, std::size_t most_bodies);
-
-// A walk for others: the prims with a rigid body, each with its own transform and that of what lies above it, m.
-struct UsdPlace {
-    const UsdPrim& prim;
-    const std::string& path;
-    const glm::dmat4 &world, &above;
-};
-using UsdVisit = std::function<void(const UsdPlace&)>;
-void visit_usd(const UsdStage& stage, const UsdUnits& units, Notes& notes, std::size_t most, const UsdVisit& visit);
+// Walks all prims that are there. Adds bodies, without shapes and masses, to the model; without one finds bodies alone.
+UsdFound found_in(const UsdStage& stage, const UsdUnits& units, Model* model, Notes& notes, std::size_t most_bodies);
 
 // Shapes and masses.
 void add_usd_shapes(const UsdStage& stage, const UsdUnits& units, UsdFound& found, Model& model, Notes& notes);

@@ -63,7 +63,7 @@ SceneDocument scene_of_usd(const std::string& name, Folder& folder, const Import
     const UsdStage stage(name, folder, notes);
     const UsdUnits units = units_of(stage);
     Model model;
-    UsdFound found = found_in(stage, units, model, notes, most_bodies);
+    UsdFound found = found_in(stage, units, &model, notes, most_bodies);
     if (found.bodies.empty() && found.colliders.empty())
         refuse({folder.shown(), 0, ""},
                "has neither bodies nor colliders of UsdPhysics: no prim that is there has PhysicsRigidBodyAPI or "

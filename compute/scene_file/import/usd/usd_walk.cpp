@@ -42,6 +42,10 @@ struct Above {  // what a prim takes from those above it
     std::string material;
     double density = 0;  // kg/m^3
     int depth = 0;
+    // Of a point instancer, while its prototype's root is at hand.
+    const UsdPrim* instancer = nullptr;
+    std::size_t instance = 0;
+    glm::dmat4 of_instancer{1};
 };
 
 class Walk {
@@ -50,8 +54,7 @@ public:
         : stage_(stage), units_(units), notes_(notes), most_(most), root_(1) {
         for (int k = 0; k < 3; ++k) root_[k][k] = units.meters;
     }
-    void all(const UsdVisit& visit) {
-        visit_ = visit;
+    void all() {
         for (const auto& child : stage_.root().children) walk(*child, {.world = root_}, child->path);
     }
     UsdFound found;
@@ -60,7 +63,7 @@ public:
 private:
     void walk(const UsdPrim& prim, const Above& above, const std::string& path);
     void instances(const UsdPrim& prim, const Above& above, const std::string& path);
-    void add_body(const UsdPrim& prim, const std::string& path, const glm::dmat4& world, const glm::dmat4& above);
+    void add_body(UsdRigid rigid);
     void collect(const UsdPrim& prim, const Above& here, const std::string& path);
     void note_rest(const UsdPrim& prim, const Above& here);
 
@@ -69,27 +72,26 @@ private:
     Notes& notes_;
     std::size_t most_, visited_ = 0;
     glm::dmat4 root_;
-    UsdVisit visit_;
 };
 
-void Walk::add_body(const UsdPrim& prim, const std::string& path, const glm::dmat4& world, const glm::dmat4& above) {
+void Walk::add_body(UsdRigid rigid) {
+    const UsdPrim& prim = *rigid.prim;
     if (found.bodies.size() >= most_) refuse(stage_.at(prim), "there are more bodies than fit into memory");
-    found.bodies.push_back({&prim, path, world, above});
-    if (visit_) visit_({prim, path, world, above});
+    found.bodies.push_back(rigid);
     if (!model) return;
     ModelBody body;
     body.origin = stage_.at(prim);
-    body.name = path;
-    body.placed = placed_of(world);
+    body.name = rigid.path;
+    body.placed = placed_of(rigid.world);
     body.kinematic = stage_.flag(prim, "physics:kinematicEnabled", false);
     body.free = !body.kinematic;
     if (stage_.flag(prim, "physxRigidBody:disableGravity", false)) body.gravity_scale = 0;
     // In the space of the prim's own transform, which is its parent's.
-    if (const auto velocity = stage_.vector(prim, "physics:velocity")) body.velocity = dmat3(above) * *velocity;
+    if (const auto velocity = stage_.vector(prim, "physics:velocity")) body.velocity = dmat3(rigid.above) * *velocity;
     if (const auto spin = stage_.vector(prim, "physics:angularVelocity"))
-        body.spin = glm::conjugate(body.placed.turn) * (placed_of(above).turn * (degree * *spin));
+        body.spin = glm::conjugate(body.placed.turn) * (placed_of(rigid.above).turn * (degree * *spin));
     model->bodies.push_back(std::move(body));
-    found.body_at[path] = model->bodies.size() - 1;
+    found.body_at[rigid.path] = model->bodies.size() - 1;
 }
 
 void Walk::note_rest(const UsdPrim& prim, const Above& here) {
@@ -154,6 +156,7 @@ void Walk::instances(const UsdPrim& prim, const Above& above, const std::string&
             matrix[k] *= scales.numbers[3 * i + static_cast<std::size_t>(k)];
         Above instance = above;
         instance.world = above.world * matrix;
+        instance.instancer = &prim, instance.instance = i, instance.of_instancer = above.world;
         ++instance.depth;
         walk(*prototype, instance, path + "[" + std::to_string(i) + "]");
     }
@@ -168,6 +171,7 @@ void Walk::walk(const UsdPrim& prim, const Above& above, const std::string& path
         refuse(stage_.at(prim), "with it the scene has more than 5000000 prims, those of instances counted for each");
     Above here = above;
     ++here.depth;
+    here.instancer = nullptr;
     bool resets = false;
     const glm::dmat4 local = stage_.local(prim, resets);
     const glm::dmat4 parent = resets ? root_ : above.world;
@@ -182,7 +186,12 @@ void Walk::walk(const UsdPrim& prim, const Above& above, const std::string& path
     if (prim.applies("PhysicsMassAPI"))
         if (const double density = stage_.number(prim, "physics:density", 0); density > 0) here.density = density * per_volume;
     if (prim.applies("PhysicsRigidBodyAPI") && stage_.flag(prim, "physics:rigidBodyEnabled", true)) {
-        add_body(prim, path, here.world, parent);
+        UsdRigid rigid{&prim, path, here.world, above.instancer ? above.of_instancer : parent};
+        rigid.resets = resets;
+        if (above.body != world_body) rigid.carrier = above.body - 1;
+        rigid.instancer = above.instancer, rigid.instance = above.instance;
+        rigid.within = local;
+        add_body(std::move(rigid));
         here.body = found.bodies.size();
     }
     collect(prim, here, path);
@@ -195,15 +204,11 @@ void Walk::walk(const UsdPrim& prim, const Above& above, const std::string& path
 
 }  // namespace
 
-UsdFound found_in(const UsdStage& stage, const UsdUnits& units, Model& model, Notes& notes, std::size_t most_bodies) {
+UsdFound found_in(const UsdStage& stage, const UsdUnits& units, Model* model, Notes& notes, std::size_t most_bodies) {
     Walk walk(stage, units, notes, most_bodies);
-    walk.model = &model;
-    walk.all({});
+    walk.model = model;
+    walk.all();
     return std::move(walk.found);
-}
-
-void visit_usd(const UsdStage& stage, const UsdUnits& units, Notes& notes, std::size_t most, const UsdVisit& visit) {
-    Walk(stage, units, notes, most).all(visit);
 }
 
 }  // namespace scree::imports
