@@ -1,4 +1,4 @@
-// Joints of a scene as UsdPhysics: angles in degrees.
+// Joints of a scene as UsdPhysics: angles in joint_degrees.
 #include "demos/film/usd_joints.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace scree::demos {
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
-constexpr float degrees = static_cast<float>(180 / std::numbers::pi);
+constexpr float joint_degrees = static_cast<float>(180 / std::numbers::pi);
 
 class UsdJoint {
 public:
@@ -27,7 +27,7 @@ public:
     void say(const Fixed&) { type = "PhysicsFixedJoint"; }
     void say(const Hinge& hinge) {
         type = "PhysicsRevoluteJoint";
-        single(hinge.turn, "angular", degrees);
+        single(hinge.turn, "angular", joint_degrees);
     }
     void say(const Slider& slider) {
         type = "PhysicsPrismaticJoint";
@@ -43,7 +43,7 @@ public:
     void say(const ConeTwist& cone) {
         type = "PhysicsSphericalJoint";
         fmt::format_to(Out(says), "        float physics:coneAngle0Limit = {0}\n        float physics:coneAngle1Limit = {0}\n",
-                       cone.swing * degrees);
+                       cone.swing * joint_degrees);
         if (cone.twist.lower > -3.14f || cone.twist.upper < 3.14f || cone.friction > 0)
             note_("twist and friction of cones are left out");
     }
@@ -52,7 +52,7 @@ public:
         const Axis* const axes[] = {&six.x, &six.y, &six.z, &six.twist, &six.swing_y, &six.swing_z};
         static const char* const names[] = {"transX", "transY", "transZ", "rotX", "rotY", "rotZ"};
         for (int i = 0; i < 6; ++i) {
-            const float unit = i < 3 ? 1 : degrees;
+            const float unit = i < 3 ? 1 : joint_degrees;
             const Axis& axis = *axes[i];
             if (axis.locked || axis.limits) {
                 const float low = axis.locked ? 1 : axis.limits->lower * unit,

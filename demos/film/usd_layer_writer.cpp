@@ -60,7 +60,7 @@ std::optional<Parts> parts_of(const dmat4& matrix) {
 }
 
 // Samples of an attribute; those that repeat the last one are left out while they do.
-struct Track {
+struct SampledText {
     void add(double time, std::string value) {
         if (value == last) {
             repeated = time;
@@ -77,7 +77,7 @@ struct Track {
 };
 
 struct Tracked {
-    Track position, turn, whole;
+    SampledText position, turn, whole;
     bool sheared = false;
     dquat before{1, 0, 0, 0};
     dvec3 scale{1};
@@ -129,11 +129,11 @@ void put_over(host::GrowingFile& file, const std::string& name, const Over& over
 struct UsdLayerWriter::Impl {
     std::filesystem::path path, under;
     UsdInput input;
-    std::vector<Tracked> tracks;                         // of the input's bodies
-    std::vector<std::array<Track, 2>> of_instancers;     // positions, orientations
-    std::unordered_map<std::string, std::size_t> named;  // bodies by name
-    std::vector<std::size_t> animated;                   // of the input's bodies: which of the run's, or none
-    double last = 0;                                     // time code
+    std::vector<Tracked> tracks;                            // of the input's bodies
+    std::vector<std::array<SampledText, 2>> of_instancers;  // positions, orientations
+    std::unordered_map<std::string, std::size_t> named;     // bodies by name
+    std::vector<std::size_t> animated;                      // of the input's bodies: which of the run's, or none
+    double last = 0;                                        // time code
 
     void find(const Animated& all);
     std::vector<dmat4> worlds(const Animated& all) const;

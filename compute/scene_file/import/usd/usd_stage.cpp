@@ -9,7 +9,7 @@ namespace scree::imports {
 namespace {
 
 constexpr int deepest_arcs = 60, deepest_prims = 200;
-constexpr std::size_t most_prims = 1'000'000, most_sites = 4'000'000;
+constexpr std::size_t most_prims = 500'000, most_sites = 4'000'000;
 
 // Without choices of variants.
 std::string plain_path(const std::string& path) {
@@ -207,8 +207,8 @@ void UsdStage::describe(UsdPrim& prim) {
             number("specifier", specifier);
             number("active", active);
             number("instanceable", instanceable);
-            if (specifier == 0) prim.defined = true;
-            if (specifier == 2) prim.abstract = true;
+            if (specifier == 0 && !prim.abstract) prim.defined = true;
+            if (specifier == 2 && !prim.defined) prim.abstract = true;
             const UsdValue type = one.layer->value(*spec, "typeName");
             if (prim.type.empty() && !type.texts.empty()) prim.type = type.texts[0];
         }
@@ -239,7 +239,7 @@ void UsdStage::compose(UsdPrim& prim, int depth) {
         child->name = name;
         child->path = usd_child(prim.path, name);
         child->parent = &prim;
-        if (prims_.size() >= most_prims) refuse(at(prim), "the scene has more than 1000000 prims");
+        if (prims_.size() >= most_prims) refuse(at(prim), "the scene has more than 500000 prims");
         Expansion all{*child, child->sites};
         for (const UsdSite& site : prim.sites) {
             if (prim.instance && site.own) continue;
