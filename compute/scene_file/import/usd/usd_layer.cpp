@@ -1,6 +1,8 @@
 // Specs of a USD file by path.
 #include "compute/scene_file/import/usd/usd_layer.h"
 
+#include <algorithm>
+
 namespace scree::imports {
 
 const UsdValue* UsdSpec::find(const std::string& name) const {
@@ -35,6 +37,29 @@ bool UsdLayer::has(const UsdSpec& spec, const std::string& name) const {
 
 std::string usd_child(const std::string& parent, const std::string& name) {
     return parent + (parent.ends_with('/') || parent.ends_with('}') ? "" : "/") + name;
+}
+
+std::string usd_plain(const std::string& path) {
+    std::string plain;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        if (path[i] != '{') {
+            plain += path[i];
+            continue;
+        }
+        i = std::min(path.find('}', i), path.size() - 1);
+        if (i + 1 < path.size() && path[i + 1] != '/' && path[i + 1] != '.' && path[i + 1] != '{') plain += '/';
+    }
+    return plain;
+}
+
+std::string usd_absolute(const std::string& path, const std::string& prim) {
+    if (path.starts_with('/')) return path;
+    std::string base = usd_plain(prim), rest = path;
+    while (rest.starts_with("../")) {
+        rest = rest.substr(3);
+        base = base.substr(0, base.rfind('/'));
+    }
+    return base + (rest.empty() || rest.starts_with('.') ? "" : "/") + rest;
 }
 
 std::shared_ptr<UsdLayer> layer_of_usd(std::string bytes, const std::string& shown) {

@@ -37,6 +37,11 @@ struct UsdLayer {
 // Path of a child prim, from that of its parent.
 std::string usd_child(const std::string& parent, const std::string& name);
 
+// Without choices of variants.
+std::string usd_plain(const std::string& path);
+// Of a path that may begin at a prim, as "../other".
+std::string usd_absolute(const std::string& path, const std::string& prim);
+
 // Throw ImportError.
 std::shared_ptr<UsdLayer> layer_of_usda(const std::string& text, const std::string& shown);
 std::shared_ptr<UsdLayer> layer_of_crate(std::string bytes, const std::string& shown);

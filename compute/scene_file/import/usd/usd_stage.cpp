@@ -11,20 +11,6 @@ namespace {
 constexpr int deepest_arcs = 60, deepest_prims = 200;
 constexpr std::size_t most_prims = 500'000, most_sites = 4'000'000;
 
-// Without choices of variants.
-std::string plain_path(const std::string& path) {
-    std::string plain;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        if (path[i] != '{') {
-            plain += path[i];
-            continue;
-        }
-        i = std::min(path.find('}', i), path.size() - 1);
-        if (i + 1 < path.size() && path[i + 1] != '/' && path[i + 1] != '.' && path[i + 1] != '{') plain += '/';
-    }
-    return plain;
-}
-
 bool lies_under(const std::string& path, const std::string& above) {
     return above == "/" ||
            (path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/' || path[above.size()] == '.'));
@@ -39,16 +25,6 @@ std::string renamed(std::string path, const UsdRename* rename) {
             return "";
     }
     return path;
-}
-
-std::string absolute(const std::string& path, const std::string& from) {
-    if (path.starts_with('/')) return path;
-    std::string base = plain_path(from), rest = path;
-    while (rest.starts_with("../")) {
-        rest = rest.substr(3);
-        base = base.substr(0, base.rfind('/'));
-    }
-    return base + (rest.empty() || rest.starts_with('.') ? "" : "/") + rest;
 }
 
 std::vector<UsdItem> items_of(const UsdValue& value) {
@@ -139,12 +115,12 @@ void UsdStage::arcs(Expansion& all, const UsdSite& site, const std::string& fiel
         }
         target.offset = site.offset + site.scale * item.offset;
         target.scale = site.scale * item.scale;
-        target.path = item.path.empty() ? target.stack->default_prim : plain_path(absolute(item.path, site.path));
+        target.path = item.path.empty() ? target.stack->default_prim : usd_plain(item.path);
         if (target.path.empty()) {
             notes_.add(at(all.prim), field, "of a file without a default prim brings nothing");
             continue;
         }
-        const std::string here = plain_path(site.path);
+        const std::string here = usd_plain(site.path);
         if (target.stack == site.stack && lies_under(here, target.path))
             refuse(at(all.prim), "refers to itself, or to what it lies in");
         target.rename = std::make_shared<UsdRename>(UsdRename{target.path, here, target.stack == site.stack, site.rename});
@@ -286,7 +262,7 @@ std::vector<std::string> UsdStage::targets(const UsdPrim& prim, const std::strin
         for (auto one = site->stack->layers.rbegin(); one != site->stack->layers.rend(); ++one) {
             UsdValue value = one->layer->value(site->path + "." + name, "targetPaths");
             for (auto& [edit, items] : value.edits.all) {
-                for (UsdItem& item : items) item.path = renamed(plain_path(absolute(item.path, site->path)), site->rename.get());
+                for (UsdItem& item : items) item.path = renamed(usd_plain(item.path), site->rename.get());
                 std::erase_if(items, [](const UsdItem& item) { return item.path.empty(); });
             }
             apply_edits(value.edits, list);

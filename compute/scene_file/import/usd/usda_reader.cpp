@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "compute/scene_file/import/usd/usd_layer.h"
 
@@ -51,6 +52,7 @@ private:
     const char* at_;
     const char* end_;
     int line_ = 1;
+    std::string here_ = "/";  // the prim at hand
     UsdLayer& layer_;
 };
 
@@ -156,8 +158,10 @@ std::string Usda::path() {
     const char* from = at_;
     while (at_ < end_ && *at_ != '>' && *at_ != '\n') ++at_;
     if (at_ >= end_ || *at_ != '>') fail("a path does not end with '>' on its line");
+    constexpr std::ptrdiff_t longest = 10000;
+    if (at_ - from > longest) fail("a path is longer than 10000 letters");
     std::string text(from, at_++);
-    return text;
+    return usd_absolute(text, here_);
 }
 
 double Usda::number() {
@@ -449,9 +453,11 @@ void Usda::prim(const std::string& specifier, const std::string& parent, int dep
     UsdSpec& spec = spec_at(path, UsdSpec::Kind::prim);
     keep(spec, "specifier", UsdValue::of_number(specifier == "def" ? 0 : specifier == "over" ? 1 : 2));
     if (!type.empty()) keep(spec, "typeName", UsdValue::of_text(type));
+    const std::string above = std::exchange(here_, path);
     metadata(spec);
     expect('{');
     body(path, depth);
+    here_ = above;
 }
 
 void Usda::read() {
