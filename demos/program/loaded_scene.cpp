@@ -253,7 +253,7 @@ const Demo& demo_named(const SceneOptions& options) {
         const std::string near = nearest(options.name, names);
         throw UsageError(
             fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json, .xml, .mjcf, .urdf, "
-                        ".gltf, .glb, .stl or .obj",
+                        ".gltf, .glb, .usda, .usdc, .usdz, .stl or .obj",
                         options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
     }
     if (options.bodies && !demo->takes_bodies) {

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/gltf_joints.h"
 #include "compute/scene_file/import/gltf_materials.h"
 #include "compute/scene_file/import/gltf_shapes.h"
+#include "compute/scene_file/import/srgb.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
 
@@ -73,15 +73,6 @@ private:
     std::vector<Body> surfaces_;                              // static triangle meshes
     Model model_;
 };
-
-// Encodes linear light, IEC 61966-2-1.
-vec3 srgb_of(vec3 linear) {
-    for (int k = 0; k < 3; ++k) {
-        const float x = std::clamp(linear[k], 0.0f, 1.0f);
-        linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * portable::pow(x, 1.0f / 2.4f) - 0.055f;
-    }
-    return linear;
-}
 
 // A node that a list names.
 std::size_t Gltf::child_of(const GltfValue& list, std::size_t i) const {

@@ -581,6 +581,7 @@ int run(const CLI::App& command, RunOptions options) {
         throw UsageError(
             "run: name a demo (scree list) or a scene file, or give a recording with --input or a checkpoint with --resume");
     }
+    lay_over(options.animation, options.scene.name, options.scene.imported);
     options.advises = !options.quiet || !options.report.empty();
     options.draws = options.pictures.wanted();
     if (options.pictures.until && !options.scene.steps && !options.scene.seconds)

@@ -301,8 +301,8 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
          ground: bool = False, keyframe: Union[str, int] = "", packages: Optional[Dict[str, str]] = None,
          allow_outside: bool = False) -> Scene:
     """Reads a scene file and the meshes that it names, or a file of another program: MJCF (.xml, .mjcf), URDF (.urdf, .xml), glTF
-    physics (.gltf, .glb), .stl, .obj. `notes` of the scene tells what of those was not translated, with file and line; strict
-    makes that an error.
+    physics (.gltf, .glb), UsdPhysics (.usda, .usdc, .usdz), .stl, .obj. `notes` of the scene tells what of those was not
+    translated, with file and line; strict makes that an error.
 
     axes: "y-up" turns scenes whose z axis points up; "file" keeps their axes, with gravity along -z. base: the root link of a
     URDF, "fixed" or "free"; left out: fixed, with a note. ground: adds a plane that the lowest point touches. keyframe: of an
