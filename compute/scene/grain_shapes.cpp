@@ -50,7 +50,7 @@ std::vector<dvec3> lattice_directions(int count) {
     return made;
 }
 
-std::vector<dvec3> random_directions(int count, Random& random) {
+std::vector<dvec3> random_directions(int count, SeededRandom& random) {
     const double stray = 1.4 / std::sqrt(static_cast<double>(count));
     const vec4 q = random.orientation();
     const glm::dquat turn = glm::normalize(glm::dquat(q.w, q.x, q.y, q.z));
@@ -66,7 +66,7 @@ struct RoughGrain {
 };
 constexpr int sharp_corners = 6;
 
-RoughGrain rough(const PolyhedronGrain& family, Random& random) {
+RoughGrain rough(const PolyhedronGrain& family, SeededRandom& random) {
     RoughGrain made;
     HullForm form;
     for (bool holds_middle = false; !holds_middle;) {
@@ -160,7 +160,7 @@ UnitGrain unit_hull(const std::vector<vec3>& points, const std::string& place) {
 std::vector<UnitGrain> unit_polyhedra(const PolyhedronGrain& family, std::uint64_t seed, const std::string& place) {
     std::vector<UnitGrain> made;
     for (std::uint32_t i = 0; i < family.variants; ++i) {
-        Random random(seed, 0x5A5A0000u + i);
+        SeededRandom random(seed, 0x5A5A0000u + i);
         const RoughGrain shape = rough(family, random);
         const double roundness = family.sphericity ? roundness_for(shape, family, place) : static_cast<double>(family.roundness);
         made.push_back(unit_hull(corners_of(shape, family, roundness), place + "/polyhedron"));

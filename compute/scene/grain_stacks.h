@@ -29,7 +29,7 @@ private:
     double wide_x_ = 0, wide_z_ = 0, radius_ = 0, gap_ = 0;  // m
     std::uint32_t columns_ = 0, rows_ = 0;
     std::vector<double> heights_;  // m, above the region's floor; of what is outside of it infinite
-    Random random_;
+    SeededRandom random_;
 };
 
 double volume_of(const GrainRegion& region);  // m^3

@@ -152,7 +152,7 @@ void GrainSupply::Impl::make_classes(std::vector<GrainClass>& classes) {
             if (passing == 0) continue;
             GrainClass one{s, static_cast<double>(curve[i - 1].size), static_cast<double>(curve[i].size)};
             one.part = 0.01 * passing * static_cast<double>(shapes[s].share) / all;
-            Random random(asked.seed, 0xC0000000u + classes.size());
+            SeededRandom random(asked.seed, 0xC0000000u + classes.size());
             one.phase = static_cast<double>(random.unit());
             one.first_form = static_cast<std::uint32_t>(made.size());
             Scene scene;
@@ -274,7 +274,7 @@ double GrainSupply::largest_reach() const {
 
 Body GrainSupply::grain(std::size_t index) const {
     const Impl& in = *impl_;
-    Random random(in.asked.seed, index);
+    SeededRandom random(in.asked.seed, index);
     Body body;
     if (!in.asked.name.empty()) body.name = in.asked.name + " " + std::to_string(index);
     body.shape = in.shape_of(index);
@@ -304,7 +304,7 @@ void GrainSupply::place(const std::function<void(Body)>& take) const {
         const std::optional<GrainStacks::Place> place = stacks.put(size);
         if (!place)
             throw SceneError(in.where + "/region", "is too narrow for its largest grain, which is " + plain(largest) + " m long");
-        Random random(in.asked.seed, 0x7000000000u + i);
+        SeededRandom random(in.asked.seed, 0x7000000000u + i);
         body.position = vec3(place->low - box.low + (place->size - size) * glm::dvec3(random.vector(0, 1)));
         in.highest = std::max(in.highest, static_cast<double>(body.position.y) + box.high.y);
         take(std::move(body));

@@ -6,11 +6,11 @@
 
 namespace scree {
 
-class Random {
+class SeededRandom {
 public:
-    explicit Random(std::uint64_t seed) : state_(seed + increment) { bits(); }
+    explicit SeededRandom(std::uint64_t seed) : state_(seed + increment) { bits(); }
     // One of many independent sequences of a seed: neighbouring numbers are mixed first (SplitMix64, Steele et al. 2014).
-    Random(std::uint64_t seed, std::uint64_t sequence) : Random(mixed(mixed(seed) + sequence)) {}
+    SeededRandom(std::uint64_t seed, std::uint64_t sequence) : SeededRandom(mixed(mixed(seed) + sequence)) {}
 
     std::uint32_t bits() {
         const std::uint64_t old = state_;

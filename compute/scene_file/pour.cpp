@@ -71,7 +71,7 @@ private:
 };
 
 // A point at random of the region, in which a ball of this radius is inside of it.
-glm::dvec3 point_within(const GrainRegion& region, double radius, Random& random) {
+glm::dvec3 point_within(const GrainRegion& region, double radius, SeededRandom& random) {
     const glm::dvec3 part(random.vector(0, 1));
     if (const auto* box = std::get_if<GrainBox>(&region)) {
         const glm::dvec3 low = glm::dvec3(box->low) + radius, high = glm::dvec3(box->high) - radius;
@@ -115,7 +115,7 @@ std::vector<bool> blocked(const std::vector<Ball>& balls, const std::vector<std:
 std::vector<Body> with_room(const GrainSupply& supply, std::size_t next, std::size_t end, const World& world) {
     constexpr int rounds = 8, tries = 40;
     const Grains& grains = supply.description();
-    Random random(grains.seed, 0x900000000u + next);
+    SeededRandom random(grains.seed, 0x900000000u + next);
     std::vector<Body> bodies;
     std::vector<Ball> balls;
     std::vector<std::size_t> waiting;

@@ -5,6 +5,6 @@
 
 namespace scree::demos {
 
-using scree::Random;
+using Random = SeededRandom;
 
 }  // namespace scree::demos
