@@ -77,7 +77,11 @@ RoughGrain rough(const PolyhedronGrain& family, SeededRandom& random) {
             made.sharp_way.push_back(static_cast<double>(random.between(0.65f, 1)));
             corners.emplace_back(way * made.sharp_way.back());
         }
-        form = hull_form(corners);
+        try {
+            form = hull_form(corners);
+        } catch (const HullError&) {  // nearly in a plane
+            continue;
+        }
         holds_middle = std::ranges::all_of(form.faces, [](const HullForm::Face& face) { return face.distance > 0.15; });
     }
     if (family.corners > sharp_corners) made.others = random_directions(static_cast<int>(family.corners) - sharp_corners, random);

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
+#include <queue>
 #include <utility>
 
 #include "compute/scene/double_quaternion.h"
@@ -21,6 +22,7 @@ namespace {
 
 // Hulls have these many sizes within an interval of the curve, so that grains share them.
 constexpr int hull_sizes = 8;
+constexpr std::size_t most_forms = 10000;
 constexpr double curve_tolerance = 1;  // % of the mass, of a curve
 
 void check_region(const Examination& at, const GrainRegion& region) {
@@ -42,8 +44,17 @@ void check_curve(const Examination& at, const std::vector<SievePoint>& sieve) {
         at.refuse("/sieve/" + std::to_string(sieve.size() - 1) + "/passing", "must be 100: it is the size of the largest grains");
 }
 
-void check_shapes(const Examination& at, const std::vector<GrainShape>& shapes) {
+void check_shapes(const Examination& at, const std::vector<GrainShape>& shapes, std::size_t intervals) {
     if (shapes.size() > 32) at.refuse("/shapes", "at most 32 shapes");
+    std::size_t forms = 0;
+    for (const GrainShape& shape : shapes) {
+        if (const auto* polyhedron = std::get_if<PolyhedronGrain>(&shape.form)) forms += polyhedron->variants;
+        forms += std::holds_alternative<MeshGrain>(shape.form);
+    }
+    forms *= std::max<std::size_t>(intervals, 1) * hull_sizes;
+    if (forms > most_forms)
+        at.refuse("/shapes", "all variants in all intervals of the curve are " + std::to_string(forms) + " hulls, above " +
+                                 std::to_string(most_forms) + "; have fewer variants");
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const auto* mesh = std::get_if<MeshGrain>(&shapes[i].form);
         if (!mesh) continue;
@@ -63,7 +74,7 @@ void check(const Examination& at, Grains grains) {
     if (grains.sieve.empty() == (grains.size == 0))
         at.refuse("", "needs either \"sieve\", a curve, or \"size\", that of all grains");
     if (!grains.sieve.empty()) check_curve(at, grains.sieve);
-    check_shapes(at, grains.shapes);
+    check_shapes(at, grains.shapes, grains.sieve.empty() ? 1 : grains.sieve.size() - 1);
     check_region(at, grains.region);
     if ((grains.mass > 0) + (grains.count > 0) + (grains.fill > 0) != 1)
         at.refuse("", "needs exactly one of \"mass\", \"count\" and \"fill\", above 0");
@@ -224,27 +235,34 @@ GrainSupply::GrainSupply(const Grains& grains, const std::string& place, std::si
     const double asked = grains.fill > 0
                              ? static_cast<double>(grains.fill) * volume_of(grains.region) * static_cast<double>(grains.density)
                              : static_cast<double>(grains.mass);
-    for (;;) {
-        if (grains.count > 0 && in.sizes.size() == grains.count) break;
-        // That which is behind its part of the mass, judged with half of its next grain.
-        GrainClass* next = nullptr;
-        double least = 0;
-        for (GrainClass& one : classes) {
-            const double standing = (one.given + 0.5 * one.next_mass) / one.part;
-            if (!next || standing < least) {
-                next = &one;
-                least = standing;
-            }
-        }
-        if (grains.count == 0 && !in.sizes.empty() && in.before.back() + 0.5 * next->next_mass > asked) break;
-        if (in.sizes.size() == most)
-            throw SceneError(place, "these are more than " + std::to_string(most) +
-                                        " grains, which is what fits into the memory here; ask for fewer or larger ones");
-        in.sizes.push_back(static_cast<float>(next->next_size));
-        in.forms.push_back(next->next_form);
-        in.before.push_back(in.before.back() + next->next_mass);
-        next->given += next->next_mass;
-        in.prepare(*next);
+    const auto refuse = [&] {
+        throw SceneError(place, "these are more than " + std::to_string(most) +
+                                    " grains, which is what fits into the memory here; ask for fewer or larger ones");
+    };
+    double least = 0;  // number of grains, if all were as heavy as can be
+    for (const GrainClass& one : classes) {
+        double volume = 0;
+        for (const UnitGrain& unit : in.units[one.shape]) volume = std::max(volume, unit.volume);
+        least += asked * one.part / (volume * cubed_size(one.high) * static_cast<double>(grains.density));
+    }
+    if (grains.count > most || least > static_cast<double>(most)) refuse();
+    // That which is furthest behind its part of the mass, judged with half of its next grain.
+    const auto standing = [](const GrainClass& one) { return (one.given + 0.5 * one.next_mass) / one.part; };
+    using Turn = std::pair<double, std::size_t>;
+    std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns;
+    for (std::size_t i = 0; i < classes.size(); ++i) turns.emplace(standing(classes[i]), i);
+    while (grains.count == 0 || in.sizes.size() < grains.count) {
+        const std::size_t index = turns.top().second;
+        GrainClass& next = classes[index];
+        if (grains.count == 0 && !in.sizes.empty() && in.before.back() + 0.5 * next.next_mass > asked) break;
+        if (in.sizes.size() == most) refuse();
+        turns.pop();
+        in.sizes.push_back(static_cast<float>(next.next_size));
+        in.forms.push_back(next.next_form);
+        in.before.push_back(in.before.back() + next.next_mass);
+        next.given += next.next_mass;
+        in.prepare(next);
+        turns.emplace(standing(next), index);
     }
 }
 

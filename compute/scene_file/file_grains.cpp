@@ -1,11 +1,13 @@
 // Adding the grains of a scene file to its bodies and events.
 #include "compute/scene_file/file_grains.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/pour.h"
+#include "compute/schema/check.h"
 
 namespace scree {
 
@@ -17,14 +19,15 @@ void add(SceneDocument& document, FileGrains one, const std::string& place, std:
         if (notes)
             for (const std::string& told : supply.notes()) notes->push_back(told);
     };
+    std::vector<Body>& bodies = document.scene.bodies;
+    const std::size_t most = most_bodies - std::min(most_bodies, bodies.size());
     if (one.grains.poured()) {
-        note(*supply_of(one.grains, place));
+        note(*supply_of(one.grains, place, std::min(most, most_poured)));
         document.events.push_back({one.start, PourEvent{std::move(one.grains)}});
         return;
     }
     if (one.start != 0) throw SceneError(place + "/start", "is of poured grains; give them a mass_rate or count_rate");
-    std::vector<Body>& bodies = document.scene.bodies;
-    const GrainSupply supply(one.grains, place, most_bodies - std::min(most_bodies, bodies.size()));
+    const GrainSupply supply(one.grains, place, most);
     bodies.reserve(bodies.size() + supply.count());
     supply.place([&](Body body) { bodies.push_back(std::move(body)); });
     note(supply);

@@ -194,7 +194,7 @@ std::string name_of_poured(const Grains& grains) {
     return grains.name.empty() ? "grain" : grains.name;
 }
 
-std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::string& place) {
+std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::string& place, std::size_t most) {
     static std::mutex mutex;
     static std::deque<std::pair<std::string, std::shared_ptr<const GrainSupply>>> known;
     constexpr std::size_t most_known = 8;
@@ -211,7 +211,7 @@ std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::st
         const std::lock_guard lock(mutex);
         if (auto found = find()) return found;
     }
-    auto made = std::make_shared<const GrainSupply>(grains, place);
+    auto made = std::make_shared<const GrainSupply>(grains, place, most);
     const double largest = made->largest_reach();
     if (grains.poured() && !is_wide_enough(grains.region, 1.0001 * largest))
         throw SceneError(place + "/region", "is too narrow for the largest of its grains, which needs " +

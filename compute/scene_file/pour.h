@@ -10,9 +10,11 @@
 
 namespace scree {
 
+constexpr std::size_t most_poured = 20'000'000;
+
 // The grains of a description. Equal ones are made once; what nobody needed for a while is made again. Throws SceneError at the
-// place.
-std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::string& place);
+// place, also for more than `most`.
+std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::string& place, std::size_t most = most_poured);
 
 // How many have come into a world, those left out included.
 std::size_t poured(const Grains& grains, const World& world);

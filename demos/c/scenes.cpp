@@ -18,6 +18,7 @@
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
+#include "host/system/machine.h"
 
 namespace scree::c {
 
@@ -160,7 +161,8 @@ std::size_t add_grains_of(SceneDocument& document, const json& value, std::vecto
     const std::size_t first = made.grains.poured() ? document.events.size() : document.scene.bodies.size();
     document.grains = {std::move(made)};
     try {
-        add_grains(document, &notes);
+        constexpr double bytes_of_body = 7000;  // scene and tables
+        add_grains(document, &notes, static_cast<std::size_t>(std::min(host::available_memory() / bytes_of_body, 4.0e9)));
     } catch (const SceneError&) {
         document.grains.clear();
         throw;
