@@ -64,9 +64,17 @@ void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes
     orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
 }
 
+// Whether a hull is as an earlier check has made it: it keeps its form, which bodies share.
+bool is_made(const Hull& hull) {
+    if (!hull.form || hull.points.size() != hull.form->vertices.size()) return false;
+    return std::ranges::equal(hull.points, hull.form->vertices,
+                              [](vec3 point, const dvec3& vertex) { return point == vec3(vertex); });
+}
+
 // `position` and `orientation`: of the body, or of the part.
 Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, CheckedShapes& shapes,
                  std::vector<std::string>* notes) {
+    if (is_made(hull)) return {};
     try {
         const CheckedShapes::MadeHull& made = shapes.hull_of(hull.points);
         if (made.simplified && notes) {

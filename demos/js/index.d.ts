@@ -42,7 +42,7 @@ export interface SceneClass {
 }
 export interface Scene {
   addBodies(body: Json, count?: number, columns?: Columns): number;
-  add(list: 'joints' | 'vehicles' | 'events' | 'exclusions' | 'cars' | 'carts', item: Json): number;
+  add(list: 'joints' | 'vehicles' | 'events' | 'grains' | 'exclusions' | 'cars' | 'carts', item: Json): number;
   set(key: 'settings' | 'picture' | 'camera' | 'fields' | 'gravity' | 'duration', value: Json): void;
   get(key: string): any;
   count(list: 'bodies' | 'joints' | 'vehicles' | 'events'): number;

@@ -91,6 +91,13 @@ void set_bounds(LoadedScene& subject) {
         subject.low = glm::min(subject.low, sphere.position - sphere.radius);
         subject.high = glm::max(subject.high, sphere.position + sphere.radius);
     }
+    for (const TimedEvent& event : subject.events) {
+        const auto* pour = std::get_if<PourEvent>(&event.action);
+        if (!pour) continue;
+        const GrainBox box = box_about(pour->grains.region);
+        subject.low = glm::min(subject.low, box.low);
+        subject.high = glm::max(subject.high, box.high);
+    }
 }
 
 bool are_default(const Settings& settings) {
@@ -140,7 +147,7 @@ SceneDocument document_of_file(const SceneOptions& options, std::vector<std::str
         return scene_from_json(edited(scene_to_json(imported), options.edits), most_bodies());
     }
     return scene_from_text(edited(host::read_text(path), options.edits), path.parent_path(), most_bodies(),
-                           options.imported.allow_outside);
+                           options.imported.allow_outside, &notes);
 }
 
 LoadedScene from_file(const SceneOptions& options) {
@@ -205,6 +212,7 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
     LoadedScene subject;
     subject.name = std::move(name);
     subject.scene = checked(std::move(document.scene), notes);
+    subject.events = std::move(document.events);
     set_bounds(subject);
     subject.viewpoint = view_of(subject.low, subject.high, 30, 20);
     subject.viewpoint.fit = true;
@@ -216,7 +224,6 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
         subject.style = *document.picture;
     else if (std::ranges::any_of(subject.scene.bodies, colored))
         subject.style.color = ShownQuantity::own;
-    subject.events = std::move(document.events);
     return subject;
 }
 

@@ -54,6 +54,21 @@ TEST_CASE("c: a world has the bits of the C++ library's, also from the text that
     }
 }
 
+TEST_CASE("c: grains are added to a scene, and poured in by a world's steps") {
+    const Scene scene = balls(1);
+    const std::string region = R"("region": {"box": {"low": [3, 0, -1], "high": [5, 1, 1]}}})";
+    std::size_t first = 0;
+    ok(scree_scene_add(scene, "grains", (R"({"size": 0.1, "count": 30, )" + region).c_str(), &first));
+    CHECK(first == 2);
+    ok(scree_scene_add(scene, "grains", (R"({"size": 0.1, "count": 20, "count_rate": 100, )" + region).c_str(), &first));
+    CHECK(first == 0);  // the event
+    CHECK(scree_scene_add(scene, "grains", (R"({"size": 0.1, )" + region).c_str(), &first) == SCREE_BAD_SCENE);
+    const World world(scene);
+    CHECK(world.info().bodies == 32);
+    world.step(60);
+    CHECK(world.info().bodies > 32);
+}
+
 TEST_CASE("c: columns are read and set by their strides, and nothing beside them is touched") {
     const World world(balls(3));
     std::vector<Row> rows = rows_of(world);

@@ -29,8 +29,8 @@ std::vector<std::string> demo_names() {
 }
 
 std::string few_bodies(const std::string& name) {
-    const bool many =
-        name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "terrain" || name == "ragdolls";
+    const bool many = name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "terrain" ||
+                      name == "ragdolls" || name == "hopper" || name == "ballast";
     return many ? " --bodies 300" : "";
 }
 

@@ -170,6 +170,9 @@ class Description:
     def add_event(self, event: str) -> None:
         self._add("events", event)
 
+    def add_grains(self, grains: str) -> int:
+        return self._add("grains", grains)
+
     def add_exclusion(self, a: int, b: int) -> None:
         self._add("exclusions", json.dumps([a, b]))
 

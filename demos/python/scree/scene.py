@@ -190,9 +190,31 @@ class Scene(Bodies[_native.Description]):
         require_keys(fields, _native.keys("fields"), "fields")
         self._native.set_part("fields", json_text(fields, "/fields"))
 
+    # ---- grains
+    def add_grains(self, *, sieve: Optional[Any] = None, **keys: Any) -> Ids:
+        """Adds grains whose sizes follow a sieve curve, with the keys of "grains" in a scene file.
+
+        sieve: (n, 2), size (m) and % of the mass that passes, ascending from 0 to 100; or size=, m, for one size.
+        region: {"box": {"low": (3,), "high": (3,)}} or {"cylinder": {"base": (3,), "radius": m, "height": m}}.
+        mass (kg), count or fill (part of the region's volume): how many. shapes, density, friction, seed, name and so on.
+        mass_rate (kg/s) or count_rate (1/s): they are poured into the region during the run, from start (s) on, with a velocity.
+
+        Returns the ids of grains that are there at the start; none for poured ones. `notes` tells of curves that few grains miss.
+        """
+        require_keys(keys, _native.keys("grains"), "grains")
+        given = {key: value for key, value in keys.items() if value is not None}
+        if sieve is not None:
+            points = floats(sieve, "sieve")
+            if points.ndim != 2 or points.shape[1] != 2:
+                raise ValueError(f"sieve: is (n, 2), size and % passing, not {points.shape}")
+            given["sieve"] = [{"size": float(size), "passing": float(passing)} for size, passing in points]
+        before = len(self)
+        self._native.add_grains(json_text(given, "/grains/0"))
+        return np.arange(before, len(self), dtype=np.int64)
+
     # ---- how it is run and shown
     def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:
-        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity.
+        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity, pour.
 
         scene.at(3, impulse={"body": "ball", "impulse": [900, 1500, 0]}), with the keys of scene files.
         """
