@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compute/scene_file/events_fields.h"
+#include "compute/scene_file/measures_fields.h"
 #include "compute/scene_file/picture_style_fields.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/schema/field.h"
@@ -42,6 +43,7 @@ inline constexpr auto table<SceneDocument> =
              field("settings", &SceneDocument::settings, "Settings of a step, unless the command line says otherwise"),
              field("duration", &SceneDocument::duration, between(0, 1e6), "s", "Time of a run; 0: 10 s"),
              field("picture", &SceneDocument::picture, "How pictures show the scene"),
-             field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"));
+             field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"),
+             field("measures", &SceneDocument::measures, "What a run measures of its grains"));
 
 }  // namespace scree::schema

@@ -83,6 +83,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     read_checked(schema::field_of(&SceneDocument::duration));
     read_checked(schema::field_of(&SceneDocument::picture));
     read_checked(schema::field_of(&SceneDocument::events));
+    read_field(rest, root, schema::field_of(&SceneDocument::measures), document, named);
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
         const Place picture = root / "picture", place = picture / "color_range";
@@ -91,6 +92,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
             refuse(place, "must begin above 0 on a logarithmic scale");
     }
     check_events(document.events, document.scene);
+    if (document.measures) check_measures(*document.measures, document.scene);
 }
 
 // Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
@@ -158,7 +160,8 @@ void read_around(const json& rest, SceneDocument& document) {
 bool refers_to_bodies(const json& rest) {
     const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
     const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
-    return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events");
+    return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events") ||
+           names_any("measures");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/scene.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/picture_style.h"
@@ -47,6 +48,7 @@ struct SceneDocument {
     float duration = 0;  // s, of a run that is not told how long; 0: 10 s
     std::optional<PictureStyle> picture{};
     std::vector<TimedEvent> events{};
+    std::optional<MeasureRequest> measures{};
 };
 
 // Reads a scene file's text (format: scene_schema()). Throws SceneError with the JSON pointer of an invalid value, or

@@ -76,7 +76,7 @@ const std::vector<Order> orders = {
      {"base", "body", "collide", "constraint", "impact", "contact", "joint", "sleep", "continuous", "fracture", "vehicle"},
      false},
     {"compute/",
-     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "device", "scene_file",
+     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "measures", "device", "scene_file",
       "replay"},
      true},
 };
