@@ -465,7 +465,8 @@ struct Measuring::Impl {
     };
     static constexpr double mass_unit = 0x1p50;  // kg, the greatest there is
     std::vector<Crossed> crossed;
-    std::uint64_t since = 0;  // steps
+    std::uint64_t since = 0;      // steps
+    std::uint64_t looked_at = 0;  // steps
 
     void look(const World& world);
     void cross(dvec3 from, dvec3 to, double mass);
@@ -485,6 +486,9 @@ void Measuring::Impl::look(const World& world) {
             }
         }
     }
+    // After a return to an earlier state nothing has crossed.
+    const bool goes_on = world.steps() > looked_at;
+    looked_at = world.steps();
     const std::vector<BodyState> states = world.bodies();
     const State& state = world.state();
     before.resize(states.size());
@@ -496,7 +500,7 @@ void Measuring::Impl::look(const World& world) {
             scene.bodies[i].motion == Motion::dynamic && scene.bodies[i].role == Role::solid && now.exists && !now.quarantined;
         const bool same = grain && before[i].there && before[i].generation == generations[i];
         const double inverse = double{state.properties[state.row_of(i)].inverse_mass};
-        if (same && inverse > 0) cross(before[i].position, dvec3(now.position), 1 / inverse);
+        if (goes_on && same && inverse > 0) cross(before[i].position, dvec3(now.position), 1 / inverse);
         before[i] = {dvec3(now.position), generations[i], grain};
     }
 }

@@ -14,42 +14,42 @@ using glm::dvec3;
 
 constexpr double pi = std::numbers::pi;
 
-struct Part {  // of a way
+struct Stretch {  // of a way
     double from = 0, to = 1;
     double length() const { return std::max(0.0, to - from); }
 };
 
 // Where start + t way lies between two limits.
-void cut(Part& part, double start, double way, double low, double high) {
+void cut(Stretch& stretch, double start, double way, double low, double high) {
     if (way == 0) {
-        if (!(start >= low && start < high)) part.to = part.from;
+        if (!(start >= low && start < high)) stretch.to = stretch.from;
         return;
     }
     const double a = (low - start) / way, b = (high - start) / way;
-    part.from = std::max(part.from, std::min(a, b));
-    part.to = std::min(part.to, std::max(a, b));
+    stretch.from = std::max(stretch.from, std::min(a, b));
+    stretch.to = std::min(stretch.to, std::max(a, b));
 }
 // Where |start + t way| is at most r.
-void cut_round(Part& part, dvec3 start, dvec3 way, double r) {
+void cut_round(Stretch& stretch, dvec3 start, dvec3 way, double r) {
     const double a = glm::dot(way, way), b = glm::dot(start, way), c = glm::dot(start, start) - r * r;
     if (a == 0) {
-        if (c > 0) part.to = part.from;
+        if (c > 0) stretch.to = stretch.from;
         return;
     }
     const double squared = b * b - a * c;
     if (squared <= 0) {
-        part.to = part.from;
+        stretch.to = stretch.from;
         return;
     }
-    part.from = std::max(part.from, (-b - std::sqrt(squared)) / a);
-    part.to = std::min(part.to, (-b + std::sqrt(squared)) / a);
+    stretch.from = std::max(stretch.from, (-b - std::sqrt(squared)) / a);
+    stretch.to = std::min(stretch.to, (-b + std::sqrt(squared)) / a);
 }
 
-struct Axis {
+struct Shaft {
     dvec3 from, along;
     double length;
 };
-Axis axis_of(const MeasureCylinder& cylinder) {
+Shaft axis_of(const MeasureCylinder& cylinder) {
     const dvec3 way = dvec3(cylinder.to) - dvec3(cylinder.from);
     const double length = std::sqrt(glm::dot(way, way));
     return {dvec3(cylinder.from), way / length, length};
@@ -62,7 +62,7 @@ Span bounds(const MeasureSphere& ball) {
     return {dvec3(ball.centre) - double{ball.radius}, dvec3(ball.centre) + double{ball.radius}};
 }
 Span bounds(const MeasureCylinder& cylinder) {
-    const Axis axis = axis_of(cylinder);
+    const Shaft axis = axis_of(cylinder);
     dvec3 reach(0);
     for (int k = 0; k < 3; ++k) reach[k] = double{cylinder.radius} * std::sqrt(std::max(0.0, 1 - axis.along[k] * axis.along[k]));
     const dvec3 from(cylinder.from), to(cylinder.to);
@@ -91,31 +91,31 @@ bool inside(const MeasureSphere& ball, dvec3 point) {
     return glm::dot(away, away) <= double{ball.radius} * double{ball.radius};
 }
 bool inside(const MeasureCylinder& cylinder, dvec3 point) {
-    const Axis axis = axis_of(cylinder);
+    const Shaft axis = axis_of(cylinder);
     const dvec3 away = point - axis.from;
     const double height = glm::dot(away, axis.along);
     const dvec3 beside = away - axis.along * height;
     return height >= 0 && height < axis.length && glm::dot(beside, beside) <= double{cylinder.radius} * double{cylinder.radius};
 }
 
-Part within(const MeasureBox& box, dvec3 from, dvec3 to) {
-    Part part;
-    for (int k = 0; k < 3; ++k) cut(part, from[k], to[k] - from[k], double{box.lower[k]}, double{box.upper[k]});
-    return part;
+Stretch within(const MeasureBox& box, dvec3 from, dvec3 to) {
+    Stretch stretch;
+    for (int k = 0; k < 3; ++k) cut(stretch, from[k], to[k] - from[k], double{box.lower[k]}, double{box.upper[k]});
+    return stretch;
 }
-Part within(const MeasureSphere& ball, dvec3 from, dvec3 to) {
-    Part part;
-    cut_round(part, from - dvec3(ball.centre), to - from, double{ball.radius});
-    return part;
+Stretch within(const MeasureSphere& ball, dvec3 from, dvec3 to) {
+    Stretch stretch;
+    cut_round(stretch, from - dvec3(ball.centre), to - from, double{ball.radius});
+    return stretch;
 }
-Part within(const MeasureCylinder& cylinder, dvec3 from, dvec3 to) {
-    const Axis axis = axis_of(cylinder);
+Stretch within(const MeasureCylinder& cylinder, dvec3 from, dvec3 to) {
+    const Shaft axis = axis_of(cylinder);
     const dvec3 away = from - axis.from, way = to - from;
     const double height = glm::dot(away, axis.along), climb = glm::dot(way, axis.along);
-    Part part;
-    cut(part, height, climb, 0, axis.length);
-    cut_round(part, away - axis.along * height, way - axis.along * climb, double{cylinder.radius});
-    return part;
+    Stretch stretch;
+    cut(stretch, height, climb, 0, axis.length);
+    cut_round(stretch, away - axis.along * height, way - axis.along * climb, double{cylinder.radius});
+    return stretch;
 }
 
 bool apart(const Span& a, const Span& b) {

@@ -16,6 +16,7 @@
 #include "demos/film/vtk_folder.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/options/output_check.h"
+#include "demos/program/outputs/table.h"
 #include "host/files/file.h"
 #include "host/files/growing_file.h"
 #include "host/files/npy_file.h"
@@ -24,23 +25,15 @@ namespace scree::demos {
 
 namespace {
 
-class Table {
+class MeasuresTable {
 public:
-    virtual ~Table() = default;
+    virtual ~MeasuresTable() = default;
     virtual void add(const Measures& measures) = 0;
     virtual void finish() = 0;
 };
 
-// In quotes where a name needs them (RFC 4180).
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == text.npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-}
-
 // A line of each moment: all of the grains, regions, gates and bodies one beside the other.
-class CsvTable final : public Table {
+class CsvTable final : public MeasuresTable {
 public:
     explicit CsvTable(const std::string& path) : file_(path) {}
     void add(const Measures& measures) override {
@@ -86,7 +79,7 @@ private:
 };
 
 // Arrays by time; of regions, gates, bodies and cells by their number.
-class NpzTable final : public Table {
+class NpzTable final : public MeasuresTable {
 public:
     explicit NpzTable(const std::string& path) : file_(path), time_(file_.add_array("time", "f8", {})) {}
     void add(const Measures& measures) override {
@@ -118,7 +111,7 @@ private:
     std::vector<std::size_t> arrays_;
 };
 
-std::unique_ptr<Table> table_of(const std::string& path) {
+std::unique_ptr<MeasuresTable> table_of(const std::string& path) {
     if (path.ends_with(".npz")) return std::make_unique<NpzTable>(path);
     return std::make_unique<CsvTable>(path);
 }
@@ -135,7 +128,7 @@ struct MeasuresFile::Impl {
     std::size_t copy = 0;
     double fps = 30;
 
-    std::unique_ptr<Table> table;
+    std::unique_ptr<MeasuresTable> table;
     std::optional<Measuring> measuring;  // for the table
     std::unique_ptr<VtkFolder> folder;
     std::optional<Measuring> on_grid;  // for VTK files
