@@ -53,6 +53,18 @@ dvec3 reach_of(const Solid& solid, const dmat3& axes) {
     return reach;
 }
 
+// Around the part, in its own frame.
+Span box_of(const Solid& solid) {
+    Span box{-reach_of(solid, dmat3(1)), reach_of(solid, dmat3(1))};
+    for (int k = 0; solid.other && k < 3; ++k) {
+        dvec3 along(0);
+        along[k] = 1;
+        box.upper[k] = reach_along(*solid.other, along);
+        box.lower[k] = -reach_along(*solid.other, -along);
+    }
+    return box;
+}
+
 // In the part's frame.
 bool holds(const Solid& solid, dvec3 point) {
     if (solid.ball) return glm::dot(point, point) <= double{solid.ball->radius} * double{solid.ball->radius};
@@ -199,17 +211,21 @@ double volume_within(const Solid& solid, const Span& box) {
 }
 
 double volume_where(const Solid& solid, const std::function<bool(dvec3)>& inside) {
-    constexpr int across = 16;
-    const dvec3 reach = reach_of(solid, dmat3(1));
+    // Points of the sequence R3 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018): whichever way a cut
+    // goes, they lie evenly on both sides.
+    constexpr int points = 8192;
+    constexpr dvec3 stride(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+    const Span box = box_of(solid);
     std::size_t all = 0, found = 0;
-    for (int x = 0; x < across; ++x)
-        for (int y = 0; y < across; ++y)
-            for (int z = 0; z < across; ++z) {
-                const dvec3 point = reach * ((dvec3(x, y, z) + 0.5) * (2.0 / across) - 1.0);
-                if (!holds(solid, point)) continue;
-                ++all;
-                found += inside(solid.centre + solid.axes * point);
-            }
+    dvec3 place(0.5);
+    for (int i = 0; i < points; ++i) {
+        place += stride;
+        place -= glm::floor(place);
+        const dvec3 point = box.lower + (box.upper - box.lower) * place;
+        if (!holds(solid, point)) continue;
+        ++all;
+        found += inside(solid.centre + solid.axes * point);
+    }
     return all == 0 ? 0 : solid.volume * static_cast<double>(found) / static_cast<double>(all);
 }
 

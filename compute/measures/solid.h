@@ -30,7 +30,7 @@ std::vector<Solid> solids_of(const Body& body, glm::dvec3 position, vec4 orienta
 
 // What is in a box along the world's axes, m^3.
 double volume_within(const Solid& solid, const Span& box);
-// What is where the function says, m^3: of a lattice of equal boxes around the part those whose middles are in both.
+// What is where the function says, m^3: by the share of some thousands of points in the part.
 double volume_where(const Solid& solid, const std::function<bool(glm::dvec3)>& inside);
 
 }  // namespace scree
