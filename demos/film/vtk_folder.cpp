@@ -154,7 +154,7 @@ VtkPolyData VtkFolder::Impl::grains(const World& world, const std::vector<BodySt
     VtkPolyData data;
     std::vector<std::int64_t> ids;
     std::vector<float> radius, mass, orientation, velocity, spin, stress, pressure;
-    std::vector<std::int32_t> coordination;
+    std::vector<std::int32_t> coordination, shape;
     std::vector<std::uint8_t> rattler, asleep;
     const auto append = [](std::vector<float>& to, const auto& v) { to.insert(to.end(), &v.x, &v.x + v.length()); };
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -165,6 +165,7 @@ VtkPolyData VtkFolder::Impl::grains(const World& world, const std::vector<BodySt
         data.ends.push_back(static_cast<std::int64_t>(data.corners.size()));
         data.points.push_back(now.position);
         ids.push_back(static_cast<std::int64_t>(i));
+        shape.push_back(static_cast<std::int32_t>(body.shape.index()));
         radius.push_back(radii[i]);
         mass.push_back(masses[i]);
         append(orientation, now.orientation);
@@ -177,6 +178,7 @@ VtkPolyData VtkFolder::Impl::grains(const World& world, const std::vector<BodySt
         asleep.push_back(now.asleep ? 1 : 0);
     }
     data.of_points = {vtk_array("id", 1, ids),
+                      vtk_array("shape", 1, shape),
                       vtk_array("radius", 1, radius),
                       vtk_array("mass", 1, mass),
                       vtk_array("orientation", 4, orientation),
