@@ -38,6 +38,7 @@ class MeasureTable(Mapping[str, Doubles]):
         return len(self._columns)
 
     def row(self, name: str) -> Dict[str, Any]:
+        """The row of that name as a dict; KeyError for none."""
         if name not in self.names:
             raise KeyError(f"no row {name!r}; there are {', '.join(map(repr, self.names))}")
         at = self.names.index(name)
