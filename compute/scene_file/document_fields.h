@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compute/scene_file/events_fields.h"
+#include "compute/scene_file/measures_fields.h"
 #include "compute/scene_file/picture_style_fields.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/schema/field.h"
@@ -49,6 +50,7 @@ inline constexpr auto table<SceneDocument> = table_of(
     field("duration", &SceneDocument::duration, between(0, 1e6), "s", "Time of a run; 0: 10 s"),
     field("picture", &SceneDocument::picture, "How pictures show the scene"),
     field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"),
-    field("grains", &SceneDocument::grains, at_least(0), "grains", "Grains, which follow the bodies when the file is read"));
+    field("grains", &SceneDocument::grains, at_least(0), "grains", "Grains, which follow the bodies when the file is read"),
+    field("measures", &SceneDocument::measures, "What a run measures of its grains"));
 
 }  // namespace scree::schema

@@ -47,6 +47,7 @@ void add_grains(SceneDocument& document, std::vector<std::string>* notes, std::s
             add(document, all[i], place, notes, most_bodies);
         }
         check_events(document.events, document.scene);
+        if (document.measures) check_measures(*document.measures, document.scene);
     } catch (const SceneError&) {  // as it was
         document.scene.bodies.resize(bodies);
         document.events.resize(events);

@@ -85,6 +85,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     read_checked(schema::field_of(&SceneDocument::picture));
     read_checked(schema::field_of(&SceneDocument::events));
     read_field(rest, root, schema::field_of(&SceneDocument::grains), document, named);
+    read_field(rest, root, schema::field_of(&SceneDocument::measures), document, named);
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
         const Place picture = root / "picture", place = picture / "color_range";
@@ -160,7 +161,7 @@ bool refers_to_bodies(const json& rest) {
     const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
     const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
     return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events") ||
-           names_any("grains");
+           names_any("grains") || names_any("measures");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/scene.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/picture_style.h"
@@ -55,6 +56,7 @@ struct SceneDocument {
     std::vector<TimedEvent> events{};
     // Until add_grains(): grains to come. Reading a file has done that.
     std::vector<FileGrains> grains{};
+    std::optional<MeasureRequest> measures{};
 };
 
 // Takes the document's grains: those that are there at the start become bodies behind the others, those that are poured events.

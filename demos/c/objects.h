@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
@@ -44,7 +45,8 @@ struct Easel {
 struct WorldObject {
     WorldObject(const SceneDocument& document, World made, const demos::Backend& backend)
         : machine(backend),
-          shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
+          shown{
+              {}, document.viewpoint, document.settings, document.duration, document.picture, document.events, document.measures},
           world(std::move(made)) {}
     WorldObject(const WorldObject&) = delete;
     ~WorldObject();  // ends its exports
@@ -53,6 +55,8 @@ struct WorldObject {
     SceneDocument shown;  // how it is run and shown; without the scene, which the world has
     World world;
     std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
+    std::optional<Measuring> measuring;
+    std::optional<Measures> measured;  // last
     std::vector<Easel> easels;
     std::vector<std::shared_ptr<demos::Animation>> exports;       // being recorded
     std::vector<std::weak_ptr<demos::PageRecording>> recordings;  // likewise; their handles hold them

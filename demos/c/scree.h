@@ -371,6 +371,17 @@ typedef struct scree_sensed {
 } scree_sensed;
 SCREE_API scree_result scree_world_sensed(scree_world* world, scree_array* overlaps);
 
+/* ---- Measures of granular media, as the guide defines them */
+
+/* What is measured from now on: "measures" of scene files, or null: those of the scene. copy: whose grains count, in a world of
+ * several; else 0. Gates count crossings from the next step on, which are then waited for one by one. */
+SCREE_API scree_result scree_world_set_measures(scree_world* world, const char* measures_json, size_t copy);
+/* Measures the world as it is. json: "step"; "time", s; "cells" of the grid along x, y, z; "names" of "regions" (first "all", the
+ * grains as a whole), "gates" and "bodies"; "columns": their names, such as "regions.stress", and numbers a row. */
+SCREE_API scree_result scree_world_measure(scree_world* world, const char** json);
+/* A column of what was measured last: double, row by row. Rows of grains.* are bodies, of grid.* cells, x fastest. */
+SCREE_API scree_result scree_world_measured(scree_world* world, const char* column, scree_array* values);
+
 /* ---- Joints and vehicles */
 
 typedef struct scree_joint_state {

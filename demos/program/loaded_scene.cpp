@@ -186,6 +186,7 @@ void edit(LoadedScene& subject, const std::vector<SceneEdit>& edits) {
         subject.scene = checked(std::move(changed.scene));
         if (changed.settings) subject.of_scene = *changed.settings;
         if (changed.duration > 0) subject.seconds = static_cast<double>(changed.duration);
+        subject.measures = std::move(changed.measures);
     } catch (const SceneError& error) {
         throw UsageError(subject.name + ", changed by --set: " + error.what());
     }
@@ -224,6 +225,7 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
         subject.style = *document.picture;
     else if (std::ranges::any_of(subject.scene.bodies, colored))
         subject.style.color = ShownQuantity::own;
+    subject.measures = std::move(document.measures);
     return subject;
 }
 
@@ -236,7 +238,7 @@ std::string LoadedScene::title() const {
 }
 
 SceneDocument document_of(const LoadedScene& subject) {
-    SceneDocument document{subject.scene, subject.viewpoint, {}, 0, {}, subject.events};
+    SceneDocument document{subject.scene, subject.viewpoint, {}, 0, {}, subject.events, {}, subject.measures};
     if (!are_default(subject.of_scene)) document.settings = subject.of_scene;
     if (subject.seconds != LoadedScene{}.seconds) document.duration = static_cast<float>(subject.seconds);
     if (!(subject.style == PictureStyle{})) document.picture = subject.style;
@@ -247,6 +249,9 @@ SceneDocument document_of(const LoadedScene& subject, const World& world, std::o
     SceneDocument document = document_of(subject);
     document.scene = copy ? world.snapshot_of(*copy) : world.snapshot();
     document.events = coming_events(subject.events, world);
+    // Bodies that broke are numbered anew.
+    if (document.measures && std::ranges::any_of(world.scene().bodies, [](const Body& body) { return body.piece_of != no_body; }))
+        document.measures->bodies.clear();
     return document;
 }
 

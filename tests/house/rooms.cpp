@@ -76,8 +76,8 @@ const std::vector<Order> orders = {
      {"base", "body", "collide", "constraint", "impact", "contact", "joint", "sleep", "continuous", "fracture", "vehicle"},
      false},
     {"compute/",
-     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "device", "scene_file",
-      "replay"},
+     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "measures", "device",
+      "scene_file", "replay"},
      true},
 };
 

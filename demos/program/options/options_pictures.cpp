@@ -240,6 +240,8 @@ void PictureOptions::require_sense(const CLI::App& command) const {
         const std::string& group = option->get_group();
         if (option->count() == 0 || (group != "Pictures" && group != "Camera")) continue;
         if (!html.empty() && (group == "Camera" || is_of_pages(option->get_name()))) continue;
+        const CLI::Option* const vtk = command.get_option_no_throw("--vtk");
+        if (option->get_name() == "--fps" && vtk && vtk->count() > 0) continue;
         throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw" +
                          (is_of_pages(option->get_name()) || group == "Camera" ? ", or --html" : ""));
     }

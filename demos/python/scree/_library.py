@@ -129,6 +129,7 @@ _SIGNATURES = {
     "scree_world_set_exclusion": "pzzi", "scree_world_set": "pss", "scree_world_explode": "ppff", "scree_world_grip": "pzpppp",
     "scree_world_move_grip": "pzp", "scree_world_release_grip": "pz", "scree_world_view": "pspp", "scree_world_view_count": "pp", "scree_world_row_of": "pzp",
     "scree_world_contacts": "pp", "scree_world_set_events": "pp", "scree_world_take_events": "pp", "scree_world_sensed": "pp",
+    "scree_world_set_measures": "psz", "scree_world_measure": "pp", "scree_world_measured": "psp",
     "scree_world_joints": "pp", "scree_world_drives": "pip", "scree_world_set_drives": "ppzipz", "scree_world_set_motors": "ppzipz",
     "scree_world_set_springs": "ppzis", "scree_world_set_joint_coordinates": "ppzipz", "scree_world_apply_joint_forces": "ppzipz",
     "scree_world_add_joint": "psppp", "scree_world_remove_joint": "pz", "scree_world_vehicles": "pp", "scree_world_drive": "pzffff",

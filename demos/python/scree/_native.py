@@ -730,6 +730,19 @@ class World:
     def sensed(self) -> _Array:
         return self._array(sensed_dtype, LIBRARY.scree_world_sensed)
 
+    # ---- measures
+    def set_measures(self, request: Optional[str], copy: int) -> None:
+        self._call(LIBRARY.scree_world_set_measures, None if request is None else _text(request), copy)
+
+    def measure(self) -> Tuple[Any, Dict[str, _Array]]:
+        """What was measured, and its columns."""
+        told = ctypes.c_char_p()
+        with self._calls:  # no other measure between these
+            self._call(LIBRARY.scree_world_measure, _byref(told))
+            about = json.loads(told.value or b"{}")
+            columns = {name: self._array(np.dtype("f8"), LIBRARY.scree_world_measured, name.encode()) for name in about["columns"]}
+        return about, columns
+
     # ---- joints and vehicles
     def joints(self) -> _Array:
         return self._array(joint_dtype, LIBRARY.scree_world_joints)
