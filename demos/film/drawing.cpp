@@ -2,9 +2,11 @@
 #include "demos/film/drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "compute/scene/mesh.h"
 #include "compute/tables/state.h"
@@ -20,6 +22,7 @@ namespace {
 // Rows grouped by shape and mesh.
 class Instances {
 public:
+    explicit Instances(bool parts = false) : parts_(parts) {}
     void add(std::uint32_t row, const SimpleShape& shape) {
         std::visit([&](const auto& one) { draw(row, one); }, shape);
     }
@@ -38,9 +41,12 @@ public:
         if (const std::optional<SimpleShape> simple = simple_shape(shape)) add(row, *simple);
         if (const auto* compound = std::get_if<Compound>(&shape))
             for (const Part& one : compound->parts) {
-                if (one.role != Role::sensor) add(first_part, one.shape);
+                const bool hidden = one.skinned && !parts_ && !compound->skins.empty();
+                if (one.role != Role::sensor && !hidden) add(first_part, one.shape);
                 ++first_part;
             }
+        if (const auto* compound = std::get_if<Compound>(&shape); compound && !parts_)
+            for (const Skin& skin : compound->skins) add(row, skin);
         if (const MeshForm* form = mesh_form_of(shape)) add(first_part, *form);
     }
 
@@ -68,8 +74,22 @@ private:
         made.solid_meshes.push_back(mesh);
     }
 
-    static constexpr std::size_t triangles_of_patch = 128;  // as many triangles as a cylinder
-    std::map<const void*, std::uint32_t> meshes_;           // mesh index of cylinders, cones and each hull
+    // In patches, too, which equal skins in equal places share.
+    void add(std::uint32_t row, const Skin& skin) {
+        const std::size_t all = skin.mesh->form->triangles.size(), count = (all + triangles_of_patch - 1) / triangles_of_patch;
+        std::array<float, 7> place{};
+        for (int k = 0; k < 7; ++k) place[static_cast<std::size_t>(k)] = k < 3 ? skin.position[k] : skin.orientation[k - 3];
+        const auto [first, fresh] =
+            skins_.try_emplace({skin.mesh->form.get(), place}, static_cast<std::uint32_t>(made.meshes.size()));
+        for (std::size_t k = 0; fresh && k < count; ++k)
+            made.meshes.push_back(patch_mesh(skin, k * triangles_of_patch, std::min((k + 1) * triangles_of_patch, all)));
+        for (std::uint32_t k = 0; k < count; ++k) add(row, first->second + k);
+    }
+
+    bool parts_;
+    std::map<std::pair<const void*, std::array<float, 7>>, std::uint32_t> skins_;  // first mesh of each
+    static constexpr std::size_t triangles_of_patch = 128;                         // as many triangles as a cylinder
+    std::map<const void*, std::uint32_t> meshes_;                                  // mesh index of cylinders, cones and each hull
     const char cylinders_ = 0, cones_ = 0;
 };
 
@@ -125,10 +145,10 @@ host::ShapeInstances instances_of(const World::Share& share, bool with_still) {
     return std::move(instances.made);
 }
 
-host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
+host::ShapeInstances instances_of(const World& world, const CopiesShown& shown, bool parts) {
     const Scene& scene = world.scene();
     const State& state = world.state();
-    Instances instances;
+    Instances instances(parts);
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
@@ -202,7 +222,7 @@ Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world
 }
 
 std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
-    const host::ShapeInstances instances = instances_of(world_, shown_);
+    const host::ShapeInstances instances = instances_of(world_, shown_, options_.parts);
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);

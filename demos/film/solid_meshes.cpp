@@ -97,4 +97,15 @@ host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t 
     return mesh;
 }
 
+host::SolidMesh patch_mesh(const Skin& skin, std::size_t first, std::size_t last) {
+    const glm::quat turn(skin.orientation.w, skin.orientation.x, skin.orientation.y, skin.orientation.z);
+    host::SolidMesh mesh;
+    for (std::size_t k = first; k < last; ++k) {
+        const MeshForm::Triangle& triangle = skin.mesh->form->triangles[k];
+        for (const vec3& corner : triangle.corners)
+            add(mesh, skin.position + turn * (triangle.middle + corner), turn * triangle.normal);
+    }
+    return mesh;
+}
+
 }  // namespace scree::demos

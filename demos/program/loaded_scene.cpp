@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "compute/scene/decomposed.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
 #include "compute/schema/settings.h"
@@ -152,6 +153,7 @@ SceneDocument document_of_file(const SceneOptions& options, std::vector<std::str
 
 LoadedScene from_file(const SceneOptions& options) {
     const std::string& path = options.name;
+    tell_of_decompositions([](const std::string& what, double done) { say("scree: {}: {:.0f}%\n", what, 100 * done); });
     LoadedScene subject;
     try {
         std::vector<std::string> notes, of_scene;

@@ -211,11 +211,14 @@ void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
     }
     if (hull) file.groups = {0};
     if (!hull) geometry.note("", "collides as the convex hull of each of its meshes");
-    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups);
+    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, !hull);
     if (!solid.flaw.empty()) geometry.refuse("its mesh has no convex hull: " + solid.flaw);
-    for (const auto& corners : solid.hulls) {
-        like.shape = Hull{corners};
-        if (like.solid) body.mass = sum_of(body.mass, placed_mass(scaled_mass(hull_mass(corners), default_density), like.placed));
+    if (!solid.remark.empty()) geometry.note("", solid.remark);
+    for (std::size_t i = 0; i < solid.hulls.size(); ++i) {
+        like.shape = Hull{solid.hulls[i]};
+        like.parts = solid.parts[i];
+        const SolidMass mass = like.parts && solid.hulls.size() == 1 && solid.encloses ? solid.mass : hull_mass(solid.hulls[i]);
+        if (like.solid) body.mass = sum_of(body.mass, placed_mass(scaled_mass(mass, default_density), like.placed));
         body.geometries.push_back(like);
     }
 }

@@ -155,8 +155,13 @@ ChunkBytes WorldChunks::described(std::string& block, const World& world, std::s
     }
     if (const auto* compound = std::get_if<Compound>(&body.shape)) {
         for (const Part& part : compound->parts) {
-            if (part.role == Role::sensor || body.role == Role::sensor) continue;
+            if (part.role == Role::sensor || body.role == Role::sensor || (part.skinned && !compound->skins.empty())) continue;
             add_part(block, parts, whole_shape(part.shape), part.position, part.orientation);
+            ++count;
+        }
+        for (const Skin& skin : compound->skins) {
+            if (body.role == Role::sensor) continue;
+            add_part(block, parts, *skin.mesh, skin.position, skin.orientation);
             ++count;
         }
     } else if (!std::holds_alternative<Plane>(body.shape) && body.role != Role::sensor) {

@@ -288,7 +288,7 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "Overlays, separated by commas: contacts (points, with the normal force as a line), velocities (arrows, the way "
             "in 0.2 s), joints (anchors and axes; blue without force, yellow at ten times the lighter body's weight, red at a "
             "hundred times), boxes (AABBs over the next step), cells (occupied broadphase cells), sleep (sleepers dull and "
-            "blue), none. Default: the scene's, mostly none.")
+            "blue), parts (of meshes that move their convex parts), none. Default: the scene's, mostly none.")
         ->check(one_of(shown))
         ->delimiter(',')
         ->expected(1)

@@ -77,7 +77,7 @@ class Scene(Bodies[_native.Description]):
         position: (3,) or (n, 3), of the centre of mass, m; of hulls, compounds and meshes of the origin of their points.
         orientation: (4,) or (n, 4), x, y, z, w.
         velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
-        motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
+        motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, height fields and meshes without decompose, dynamic for others.
         mass: kg, a number or (n,), in place of density: the scene gets the density that gives it.
         density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping (1/s), angular_damping (1/s), gravity_scale: numbers or (n,).
         name, filter, tyre, fracture, inertial, role ("sensor", "drawn"): of all, as every other key of a body in a scene file.
@@ -107,7 +107,8 @@ class Scene(Bodies[_native.Description]):
         bodies = count if count is not None else 1
         arrays = {key: vectors(value, bodies, _VECTORS.get(key, 0), key) for key, value in columns.items()}
         if motion is None:
-            motion = "fixed" if isinstance(shape, (Plane, Mesh, HeightField)) else "dynamic"
+            surface = isinstance(shape, (Plane, HeightField)) or (isinstance(shape, Mesh) and shape.decompose is None)
+            motion = "fixed" if surface else "dynamic"
         body = {"shape": shape, "motion": motion, **{key: value for key, value in fields.items() if value is not None}}
         first = self._native.add_bodies(json_text(body, f"/bodies/{len(self)}"), bodies, arrays)
         return first if count is None else np.arange(first, first + bodies, dtype=np.int64)
