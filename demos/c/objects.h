@@ -45,8 +45,8 @@ struct Easel {
 struct WorldObject {
     WorldObject(const SceneDocument& document, World made, const demos::Backend& backend)
         : machine(backend),
-          shown{
-              {}, document.viewpoint, document.settings, document.duration, document.picture, document.events, document.measures},
+          shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events,
+                {}, document.measures},
           world(std::move(made)) {}
     WorldObject(const WorldObject&) = delete;
     ~WorldObject();  // ends its exports
