@@ -108,7 +108,7 @@ Promise promise_of(const Hopper& hopper, double density, double seconds_of_flow,
                              }),
                     all_within({-far, 0, -far}, {far, hopper.rim, far}), because(penetration_below(0.02), any_number));
     if (count < few_grains) return promise;
-    promise.also(because(at_most("mass flow's change, of its mean", 0.1 + 5 / std::sqrt(static_cast<double>(count)), "",
+    promise.also(because(at_most("mass flow's change, of its mean", 0.1 + 8 / std::sqrt(static_cast<double>(count)), "",
                                  "greatest less least of three spans while it runs out",
                                  [height](const Trace& trace) {
                                      const std::vector<double> all = flows(trace, height);
@@ -117,7 +117,7 @@ Promise promise_of(const Hopper& hopper, double density, double seconds_of_flow,
                                      return (*most - *least) / mean_of(all);
                                  }),
                          any_number));
-    promise.also(because(between("mass flow, of Beverloo's law", 0.6, 1.2, "", "mean of these spans",
+    promise.also(because(between("mass flow, of Beverloo's law", 0.5, 1.1, "", "mean of these spans",
                                  [height, law](const Trace& trace) { return mean_of(flows(trace, height)) / law; }),
                          any_number));
     return std::move(promise).keeping(std::move(times));
@@ -238,7 +238,7 @@ DemoScene ballast(const DemoOptions& options) {
     };
     const double depth = static_cast<double>(bed.depth());
     const float far = half + 0.02f;
-    Promise promise(because(at_most("settlement under the load, of the bed's depth", 0.12, "", "from before the load to the end",
+    Promise promise(because(at_most("settlement under the load, of the bed's depth", 0.16, "", "from before the load to the end",
                                     [depth](const Trace& trace) {
                                         return static_cast<double>(trace.snapshots.front().bodies[sleeper].position.y -
                                                                    trace.snapshots.back().bodies[sleeper].position.y) /
