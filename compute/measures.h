@@ -79,9 +79,10 @@ struct MeasureRequest {
 };
 // Throws SceneError with the JSON pointer of a value that is out of range, below `at`, and for a body that is not there.
 void check_measures(const MeasureRequest& request, const Scene& scene, const std::string& at = "/measures");
-std::string name_of(const MeasureRequest& request, const Scene& scene, const MeasuredBody& body);
+// Names of columns. Of several measured bodies with one name the second is "name 2".
 std::string name_of_region(const MeasureRequest& request, std::size_t region);
 std::string name_of_gate(const MeasureRequest& request, std::size_t gate);
+std::string name_of_load(const MeasureRequest& request, std::size_t body, const Scene& scene);
 
 // ---- what is told
 using Tensor = std::array<double, 9>;  // xx, xy, xz, yx and so on

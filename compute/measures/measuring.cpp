@@ -540,9 +540,9 @@ std::vector<BodyLoad> Measuring::Impl::loads(const Scan& scan, const World& worl
     const std::size_t first = world.copies() > 1 ? copy * world.bodies_of_copy() : 0;
     std::vector<BodyLoad> told;
     std::map<std::size_t, std::vector<std::size_t>> asked;  // by body
-    for (const MeasuredBody& body : request.bodies) {
-        asked[first + body.body].push_back(told.size());
-        told.push_back({name_of(request, scene, body), body.body});
+    for (std::size_t i = 0; i < request.bodies.size(); ++i) {
+        asked[first + request.bodies[i].body].push_back(i);
+        told.push_back({name_of_load(request, i, scene), request.bodies[i].body});
     }
     const auto add = [&](std::size_t body, const Touch::Point& point, double side) {
         const auto found = asked.find(body);

@@ -81,9 +81,16 @@ std::string name_of_gate(const MeasureRequest& request, std::size_t gate) {
     const std::string& name = request.gates[gate].name;
     return name.empty() ? "gate " + std::to_string(gate) : name;
 }
-std::string name_of(const MeasureRequest&, const Scene& scene, const MeasuredBody& body) {
-    const std::string& name = scene.bodies[body.body].name;
-    return name.empty() ? "body " + std::to_string(body.body) : name;
+std::string name_of_load(const MeasureRequest& request, std::size_t body, const Scene& scene) {
+    const auto name_of = [&](std::size_t i) {
+        const std::size_t index = request.bodies[i].body;
+        const std::string& name = scene.bodies[index].name;
+        return name.empty() ? "body " + std::to_string(index) : name;
+    };
+    const std::string name = name_of(body);
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < body; ++i) before += name_of(i) == name;
+    return before == 0 ? name : name + " " + std::to_string(before + 1);
 }
 
 void check_measures(const MeasureRequest& request, const Scene& scene, const std::string& at) {

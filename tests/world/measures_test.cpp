@@ -191,14 +191,14 @@ TEST_CASE("measures: cells of a grid share a shape out exactly, or to a thousand
     CHECK(within(0, slice) == Approx(0.1).epsilon(1e-6));
     CHECK(within(1, right) == Approx(0.5).epsilon(1e-6));
     CHECK(within(1, slice) == Approx(0.1).epsilon(1e-6));
-    CHECK(within(2, right) == Approx(pi / 8).margin(0.004 * pi / 4));
-    CHECK(within(2, slice) == Approx(0.1 * pi / 4).margin(0.004 * pi / 4));
+    CHECK(within(2, right) == Approx(pi / 8).margin(0.01 * pi / 4));
+    CHECK(within(2, slice) == Approx(0.1 * pi / 4).margin(0.01 * pi / 4));
     // A turned face in the plane of the cut, and a box that only touches it.
     CHECK(within(0, {{0.5, -9, -9}, {9, 9, 9}}) == 0);
     CHECK(within(0, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}) == 1);
 }
 
-TEST_CASE("measures: points cut a ball as the closed form does, to 0.4% of its volume") {
+TEST_CASE("measures: points cut a ball as the closed form does, to 1% of its volume") {
     Scene scene;
     add(scene, Sphere{1}, vec3(0));
     scene = checked(scene);
@@ -210,7 +210,7 @@ TEST_CASE("measures: points cut a ball as the closed form does, to 0.4% of its v
         const double exact = ball_in_box(1, lower, glm::dvec3(2));
         const double by_points =
             volume_where(ball, [&](glm::dvec3 p) { return p.x > lower.x && p.y > lower.y && p.z > lower.z; });
-        CHECK(by_points == Approx(exact).margin(0.004 * ball.volume));
+        CHECK(by_points == Approx(exact).margin(0.01 * ball.volume));
     }
 }
 
@@ -405,6 +405,7 @@ TEST_CASE("measures: force and torque on a wall, about a point") {
     const Measures told = measure(world, request);
     const double weight = 9.81 * 8;
     CHECK(told.bodies[0].name == "table");
+    CHECK(told.bodies[1].name == "table 2");
     CHECK(told.bodies[0].force.y == Approx(-weight).epsilon(1e-3));
     CHECK(told.bodies[0].torque.x == Approx(0.3 * weight).epsilon(2e-3));
     CHECK(told.bodies[0].torque.z == Approx(-0.6 * weight).epsilon(2e-3));
