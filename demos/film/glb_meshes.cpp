@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <optional>
 #include <variant>
