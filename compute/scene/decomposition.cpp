@@ -29,7 +29,7 @@ using glm::dvec3;
 using glm::ivec3;
 using glm::uvec3;
 
-constexpr std::size_t most_pieces = 256;
+constexpr std::size_t most_pieces = 256, most_corners = 64;
 constexpr double nearly_flat = 1e-6;  // volume of a mesh that encloses nothing, over that of its box
 
 // A mesh of size 1 about the middle of its box, without open edges.
@@ -275,6 +275,7 @@ public:
             return depth;
         };
         const auto outside = [&](const dvec3& p, double distance) {
+            if (distance > error.most) distance = std::min(distance, exact(p));
             if (distance > error.most) error = {distance, p, false};
         };
         for (const auto& face : hull.faces) {
@@ -314,6 +315,16 @@ public:
             most = std::max(most, least);
         }
         return most;
+    }
+
+    // From the triangles nearest to the corners of its cell: interpolation is too large at edges.
+    double exact(const dvec3& p) const {
+        double least = 1e300;
+        for (const std::uint32_t n : grid_.nearest_around(p)) {
+            const uvec3& t = solid_.triangles[n];
+            least = std::min(least, squared_distance(p, solid_.points[t.x], solid_.points[t.y], solid_.points[t.z]));
+        }
+        return std::sqrt(least);
     }
 
     CuttingPlane surface_near(const dvec3& at) const {
@@ -380,6 +391,12 @@ public:
     }
 
     void merge() {
+        if (wanted_.vertices < most_corners)
+            for (PartOfSolid& part : parts_) {
+                std::vector<dvec3> all;
+                all.swap(part.points);
+                give_hull(part, all, wanted_.vertices);
+            }
         while (merge_best(error_)) {
         }
         enough_ = parts_.size() <= wanted_.parts;
@@ -407,15 +424,15 @@ private:
         std::vector<dvec3> all;
         for (const std::uint32_t point : points_of(piece)) all.push_back(points_[point]);
         part.volume = volume_of(piece, points_);
-        give_hull(part, all);
+        give_hull(part, all, most_corners);
         part.piece = std::move(piece);
         return part;
     }
 
-    void give_hull(PartOfSolid& part, const std::vector<dvec3>& all) const {
-        const ConvexHull rough = convex_hull(all, wanted_.vertices);
+    void give_hull(PartOfSolid& part, const std::vector<dvec3>& all, std::size_t most) const {
+        const ConvexHull rough = convex_hull(all, most);
         for (const std::uint32_t corner : rough.corners) part.points.push_back(all[corner]);
-        part.hull = convex_hull(part.points, wanted_.vertices, 0);
+        part.hull = convex_hull(part.points, most, 0);
     }
 
     void add(SolidPiece piece) {
@@ -433,7 +450,7 @@ private:
             for (const SolidPiece& piece : connected(std::move(side == 0 ? below : above), points_)) {
                 std::vector<dvec3> all;
                 for (const std::uint32_t point : points_of(piece)) all.push_back(points_[point]);
-                const double solid = volume_of(piece, points_), hull = convex_hull(all, wanted_.vertices).volume;
+                const double solid = volume_of(piece, points_), hull = convex_hull(all, most_corners).volume;
                 left += std::max(hull - solid, 0.0);
                 volumes[side] += hull;
             }
@@ -488,7 +505,7 @@ private:
 
     // ---- merging
     struct Pair {
-        double cost;  // volume that the common hull adds; without a limit its error
+        double cost;  // volume that the common hull adds; beyond the allowed error that of the hull
         Error error;
         PartOfSolid merged;
     };
@@ -503,17 +520,17 @@ private:
     }
 
     std::optional<Pair> pair_of(const PartOfSolid& a, const PartOfSolid& b, double limit) const {
-        if (limit < 1 && apart(a, b, 0.01 * error_)) return std::nullopt;
+        if (apart(a, b, limit > error_ ? limit : 0.3 * error_)) return std::nullopt;
         Pair pair;
         std::vector<dvec3> all = a.points;
         all.insert(all.end(), b.points.begin(), b.points.end());
-        give_hull(pair.merged, all);
+        give_hull(pair.merged, all, wanted_.vertices);
         if (pair.merged.hull.empty()) return std::nullopt;
         pair.merged.volume = a.volume + b.volume;
         const double added = pair.merged.hull.volume - a.hull.volume - b.hull.volume;
         pair.error = pair.merged.error = judge_.of(pair.merged.hull, pair.merged.points, limit);
         if (pair.error.most > limit) return std::nullopt;
-        pair.cost = limit < 1 ? added : pair.error.most;
+        pair.cost = limit > error_ ? pair.error.most : added;
         return pair;
     }
 

@@ -36,7 +36,7 @@ struct DecompositionError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Of a mesh whose values are checked. `tell` is called now and then with what is done, 0 to 1. Throws DecompositionError.
+// `tell` is called now and then with what is done, 0 to 1. Throws DecompositionError, and MeshError (mesh.h).
 ConvexParts decompose(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles, const Decomposition& wanted,
                       const std::function<void(double)>& tell = {});
 

@@ -13,7 +13,7 @@ using glm::dvec3;
 using glm::ivec3;
 using glm::uvec3;
 
-constexpr std::uint32_t none = ~0u;
+constexpr std::uint32_t no_triangle = ~0u;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void DistanceGrid::measure(const std::vector<dvec3>& points, const std::vector<u
     const std::size_t all =
         static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y) * static_cast<std::size_t>(count_.z);
     distances_.assign(all, 1e300);
-    nearest_.assign(all, none);
+    nearest_.assign(all, no_triangle);
     const auto squared = [&](std::uint32_t t, const dvec3& p) {
         return squared_distance(p, points[triangles[t].x], points[triangles[t].y], points[triangles[t].z]);
     };
@@ -89,7 +89,7 @@ void DistanceGrid::measure(const std::vector<dvec3>& points, const std::vector<u
                 if (from.x < 0 || from.y < 0 || from.z < 0 || from.x >= count_.x || from.y >= count_.y || from.z >= count_.z)
                     continue;
                 const std::uint32_t t = nearest_[index(from.x, from.y, from.z)];
-                if (t == none || t == tried) continue;
+                if (t == no_triangle || t == tried) continue;
                 tried = t;
                 const double d = squared(t, p);
                 if (d < distances_[i]) distances_[i] = d, nearest_[i] = t;
@@ -147,6 +147,14 @@ double DistanceGrid::at(const dvec3& where) const {
     const auto along_x = [&](int y, int z) { return between(value(c.x, y, z), value(c.x + 1, y, z), part.x); };
     const auto along_y = [&](int z) { return between(along_x(c.y, z), along_x(c.y + 1, z), part.y); };
     return between(along_y(c.z), along_y(c.z + 1), part.z);
+}
+
+std::array<std::uint32_t, 8> DistanceGrid::nearest_around(const dvec3& where) const {
+    const ivec3 c = cell_of(where);
+    std::array<std::uint32_t, 8> all{};
+    for (int k = 0; k < 8; ++k)
+        all[static_cast<std::size_t>(k)] = nearest_[index(c.x + (k & 1), c.y + (k >> 1 & 1), c.z + (k >> 2))];
+    return all;
 }
 
 std::uint32_t DistanceGrid::nearest(const dvec3& where) const {

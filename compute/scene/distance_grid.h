@@ -1,6 +1,7 @@
 // Signed distances from the surface of a solid on a grid, and the nearest triangle of each grid point.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -12,8 +13,9 @@ public:
     // Of a closed surface about 1 wide; `cell`: width of the grid's cells. What it winds around is inside.
     DistanceGrid(const std::vector<glm::dvec3>& points, const std::vector<glm::uvec3>& triangles, double cell);
 
-    double at(const glm::dvec3& place) const;              // interpolated; below 0 inside
-    std::uint32_t nearest(const glm::dvec3& place) const;  // triangle, about
+    double at(const glm::dvec3& place) const;                                    // interpolated; below 0 inside
+    std::array<std::uint32_t, 8> nearest_around(const glm::dvec3& place) const;  // triangles, of the corners of its cell
+    std::uint32_t nearest(const glm::dvec3& place) const;                        // triangle, about
 
     glm::ivec3 count() const { return count_; }
     glm::dvec3 place(int x, int y, int z) const { return low_ + cell_ * glm::dvec3(x, y, z); }

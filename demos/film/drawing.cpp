@@ -2,7 +2,6 @@
 #include "demos/film/drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -39,14 +38,7 @@ public:
     // Of a body, also of a removed one: shaders skip its row.
     void add(const Shape& shape, std::uint32_t row, std::uint32_t first_part) {
         if (const std::optional<SimpleShape> simple = simple_shape(shape)) add(row, *simple);
-        if (const auto* compound = std::get_if<Compound>(&shape))
-            for (const Part& one : compound->parts) {
-                const bool hidden = one.skinned && !parts_ && !compound->skins.empty();
-                if (one.role != Role::sensor && !hidden) add(first_part, one.shape);
-                ++first_part;
-            }
-        if (const auto* compound = std::get_if<Compound>(&shape); compound && !parts_)
-            for (const Skin& skin : compound->skins) add(row, skin);
+        if (const auto* compound = std::get_if<Compound>(&shape)) add(*compound, first_part);
         if (const MeshForm* form = mesh_form_of(shape)) add(first_part, *form);
     }
 
@@ -74,22 +66,45 @@ private:
         made.solid_meshes.push_back(mesh);
     }
 
-    // In patches, too, which equal skins in equal places share.
-    void add(std::uint32_t row, const Skin& skin) {
-        const std::size_t all = skin.mesh->form->triangles.size(), count = (all + triangles_of_patch - 1) / triangles_of_patch;
-        std::array<float, 7> place{};
-        for (int k = 0; k < 7; ++k) place[static_cast<std::size_t>(k)] = k < 3 ? skin.position[k] : skin.orientation[k - 3];
+    void add(const Compound& compound, std::uint32_t first_part) {
+        std::vector<std::uint32_t> skinned;
+        for (std::uint32_t i = 0; i < compound.parts.size(); ++i) {
+            const Part& one = compound.parts[i];
+            if (one.role == Role::sensor) continue;
+            if (one.skinned && !parts_ && !compound.skins.empty())
+                skinned.push_back(i);
+            else
+                add(first_part + i, one.shape);
+        }
+        if (!skinned.empty()) add_skins(compound, skinned, first_part);
+    }
+    // In patches, each drawn with the row of one of the parts in whose place it is: a row has one mesh. Equal bodies share them.
+    void add_skins(const Compound& compound, const std::vector<std::uint32_t>& skinned, std::uint32_t first_part) {
+        std::size_t all = 0;
+        std::vector<float> key;
+        const auto placed = [&](vec3 position, vec4 turn) {
+            key.insert(key.end(), {position.x, position.y, position.z, turn.x, turn.y, turn.z, turn.w});
+        };
+        std::vector<const void*> forms;
+        for (const Skin& skin : compound.skins) {
+            all += skin.mesh->form->triangles.size();
+            forms.push_back(skin.mesh->form.get());
+            placed(skin.position, skin.orientation);
+        }
+        for (const std::uint32_t i : skinned) placed(compound.parts[i].position, compound.parts[i].orientation);
+        const std::size_t size = std::max(triangles_of_patch, (all + skinned.size() - 1) / skinned.size());
+        const std::size_t count = (all + size - 1) / size;
         const auto [first, fresh] =
-            skins_.try_emplace({skin.mesh->form.get(), place}, static_cast<std::uint32_t>(made.meshes.size()));
+            skins_.try_emplace({std::move(forms), std::move(key)}, static_cast<std::uint32_t>(made.meshes.size()));
         for (std::size_t k = 0; fresh && k < count; ++k)
-            made.meshes.push_back(patch_mesh(skin, k * triangles_of_patch, std::min((k + 1) * triangles_of_patch, all)));
-        for (std::uint32_t k = 0; k < count; ++k) add(row, first->second + k);
+            made.meshes.push_back(patch_mesh(compound.skins, k * size, (k + 1) * size, compound.parts[skinned[k]]));
+        for (std::uint32_t k = 0; k < count; ++k) add(first_part + skinned[k], first->second + k);
     }
 
     bool parts_;
-    std::map<std::pair<const void*, std::array<float, 7>>, std::uint32_t> skins_;  // first mesh of each
-    static constexpr std::size_t triangles_of_patch = 128;                         // as many triangles as a cylinder
-    std::map<const void*, std::uint32_t> meshes_;                                  // mesh index of cylinders, cones and each hull
+    std::map<std::pair<std::vector<const void*>, std::vector<float>>, std::uint32_t> skins_;  // first mesh of each
+    static constexpr std::size_t triangles_of_patch = 128;                                    // as many triangles as a cylinder
+    std::map<const void*, std::uint32_t> meshes_;  // mesh index of cylinders, cones and each hull
     const char cylinders_ = 0, cones_ = 0;
 };
 

@@ -98,13 +98,20 @@ host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t 
     return mesh;
 }
 
-host::SolidMesh patch_mesh(const Skin& skin, std::size_t first, std::size_t last) {
-    const glm::quat turn(skin.orientation.w, skin.orientation.x, skin.orientation.y, skin.orientation.z);
+host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, std::size_t last, const Part& part) {
+    const auto turn_of = [](vec4 q) { return glm::quat(q.w, q.x, q.y, q.z); };
+    const glm::quat back = glm::conjugate(turn_of(part.orientation));
     host::SolidMesh mesh;
-    for (std::size_t k = first; k < last; ++k) {
-        const MeshForm::Triangle& triangle = skin.mesh->form->triangles[k];
-        for (const vec3& corner : triangle.corners)
-            add(mesh, skin.position + turn * (triangle.middle + corner), turn * triangle.normal);
+    std::size_t before = 0;
+    for (const Skin& skin : skins) {
+        const glm::quat turn = turn_of(skin.orientation);
+        const std::vector<MeshForm::Triangle>& all = skin.mesh->form->triangles;
+        for (std::size_t k = std::max(first, before); k < std::min(last, before + all.size()); ++k) {
+            const MeshForm::Triangle& one = all[k - before];
+            for (const vec3& corner : one.corners)
+                add(mesh, back * (skin.position + turn * (one.middle + corner) - part.position), back * (turn * one.normal));
+        }
+        before += all.size();
     }
     return mesh;
 }
