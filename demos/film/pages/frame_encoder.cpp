@@ -147,8 +147,8 @@ FrameUnits FrameUnits::of(double radius, double reach, double seconds, glm::dvec
 double FrameUnits::angle_error() const {
     return 2 * slack * turn * std::sqrt(3.0);
 }
-double FrameUnits::force_error() const {
-    return std::exp2((crowd ? 0.5 * coarse_level : slack) / levels_per_octave) - 1;
+double FrameUnits::force_error() {
+    return std::exp2(level_slack / levels_per_octave) - 1;
 }
 
 Three Follower::expected_velocity(const FrameUnits& units) const {
@@ -178,8 +178,8 @@ void Follower::advance(const FrameUnits& units, const Three& new_velocity, const
     orientation = {rx / length, ry / length, rz / length, rw / length};
 }
 
-void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double least, bool whole, double slack,
-                        std::int32_t step) {
+void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double least, bool whole,
+                        std::optional<std::uint32_t> turn) {
     told_.resize(values.size());
     if (whole) std::fill(told_.begin(), told_.end(), 0);
     BitRow changed;
@@ -187,10 +187,11 @@ void LevelTrack::encode(ChunkBytes& to, std::span<const float> values, double le
     for (std::size_t i = 0; i < values.size(); ++i) {
         std::int32_t& told = told_[i];
         std::int32_t now = 0;
-        if (static_cast<double>(values[i]) >= least) {  // not for what is no number
+        if (turn && !whole && i % FrameUnits::forces_apart != *turn) {
+            now = told;
+        } else if (static_cast<double>(values[i]) >= least) {  // not for what is no number
             const double at = 1 + FrameUnits::levels_per_octave * std::log2(static_cast<double>(values[i]) / least);
-            const bool is_near = told > 0 && std::abs(at - told) <= std::max(slack, 0.5 * (step > 1 ? step : 0));
-            now = is_near ? told : std::max(1, step * nearest_unit(at / step));
+            now = told > 0 ? kept_or_nearest_unit(at, told, FrameUnits::level_slack) : nearest_unit(at);
         }
         changed.add(now != told);
         if (now != told) levels.integer(now - told);
@@ -230,7 +231,8 @@ void FrameEncoder::encode(ChunkBytes& to, std::span<const BodyMoment> bodies, bo
     put_places(to, slept_or_woke);
     tell_whole(to, bodies, fresh, before);
     tell_changes(to, bodies, told);
-    forces_.encode(to, force_values_, units_.force, whole, units_.slack, coarse_ ? FrameUnits::coarse_level : 1);
+    turn_ = (turn_ + 1) % FrameUnits::forces_apart;
+    forces_.encode(to, force_values_, units_.force, whole, short_ ? std::optional(turn_) : std::nullopt);
 }
 
 void FrameEncoder::tell_whole(ChunkBytes& to, std::span<const BodyMoment> bodies, const std::vector<std::uint32_t>& which,
@@ -272,7 +274,7 @@ void FrameEncoder::tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodi
         if (!follower.exists || told[i]) continue;
         const Three expected_velocity = follower.expected_velocity(units_);
         Three velocity = kept_or_nearest_units(bodies[i].velocity, units_.velocity, expected_velocity, units_.slack);
-        if (coarse_) velocity = coarse_units(bodies[i].velocity, units_, follower.velocity, expected_velocity, velocity);
+        if (short_) velocity = coarse_units(bodies[i].velocity, units_, follower.velocity, expected_velocity, velocity);
         const Three expected_position = follower.expected_position(velocity);
         Three of_position, position;
         for (std::size_t k = 0; k < 3; ++k) {  // told in whole units

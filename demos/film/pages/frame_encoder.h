@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,14 +17,15 @@ namespace scree::demos {
 
 // What a unit of each number is. A value is told again where readers would be off by more than `slack` units.
 struct FrameUnits {
-    static constexpr std::int32_t parts = 8;           // of a told unit of position, in which readers go on
-    static constexpr double orientation = 1.0 / 8192;  // of a quaternion's component
-    static constexpr double levels_per_octave = 8;     // of forces
-    static constexpr std::int32_t most = 1 << 26;      // units of any number
-    // Of frames that must be short: steps of velocities and of forces, in their units.
-    static constexpr std::int32_t coarse_velocity = 32, coarse_level = 4;
+    static constexpr std::int32_t parts = 8;             // of a told unit of position, in which readers go on
+    static constexpr double orientation = 1.0 / 8192;    // of a quaternion's component
+    static constexpr double levels_per_octave = 8;       // of forces
+    static constexpr std::int32_t most = 1 << 26;        // units of any number
+    static constexpr double level_slack = 0.75;          // of levels of forces
+    static constexpr std::int32_t coarse_velocity = 64;  // units: largest step of velocities in short frames
+    static constexpr std::uint32_t forces_apart = 8;     // short frames tell the forces of each eighth body, in turn
 
-    bool crowd = false;  // of so many bodies that frames may have to be short: set_coarse()
+    bool crowd = false;  // of so many bodies that frames may have to be short
     double slack = 0.75;
     double turn = 1.0 / 2048;            // tangent of half the angle
     double position = 1.0 / 1024;        // m
@@ -36,11 +38,11 @@ struct FrameUnits {
     // A crowd's poses have the same errors.
     static FrameUnits of(double radius, double reach, double seconds, glm::dvec3 gravity, double force, bool crowd = false);
 
-    // Greatest errors of a frame: m and m/s along an axis; rad; a ratio minus 1. Of a crowd those of coarse frames.
+    // Greatest errors of a frame: m and m/s along an axis; rad; a ratio minus 1. Of a crowd those of short frames.
     double position_error() const { return slack * position; }
     double velocity_error() const { return (crowd ? 0.5 * coarse_velocity : slack) * velocity; }
     double angle_error() const;
-    double force_error() const;
+    static double force_error();
 };
 
 struct BodyMoment {
@@ -66,8 +68,8 @@ struct Follower {
 // Values such as forces by levels of a logarithmic scale; level 0 is nothing.
 class LevelTrack {
 public:
-    // `step`: of levels that are told; `slack` in such steps.
-    void encode(ChunkBytes& to, std::span<const float> values, double least, bool whole, double slack, std::int32_t step = 1);
+    // `turn`: of so many of FrameUnits::forces_apart values alone; of others what was told stays.
+    void encode(ChunkBytes& to, std::span<const float> values, double least, bool whole, std::optional<std::uint32_t> turn = {});
 
 private:
     std::vector<std::int32_t> told_;
@@ -78,9 +80,9 @@ public:
     explicit FrameEncoder(const FrameUnits& units) : units_(units) {}
     // Appends the bodies of a frame. `whole`: readers may begin here.
     void encode(ChunkBytes& to, std::span<const BodyMoment> bodies, bool whole);
-    // Coarse: velocities and forces of later frames in larger steps, where they change much. Poses are as exact as ever.
-    void set_coarse(bool on) { coarse_ = on; }
-    bool is_coarse() const { return coarse_; }
+    // Later frames are short: velocities that change much in larger steps, forces in turn. Poses are as exact as ever.
+    void set_short(bool on) { short_ = on; }
+    bool is_short() const { return short_; }
     const std::vector<Follower>& followers() const { return followers_; }
 
 private:
@@ -89,7 +91,8 @@ private:
     void tell_changes(ChunkBytes& to, std::span<const BodyMoment> bodies, const std::vector<bool>& told);
 
     FrameUnits units_;
-    bool coarse_ = false;
+    bool short_ = false;
+    std::uint32_t turn_ = 0;  // of forces in short frames
     std::vector<Follower> followers_;
     LevelTrack forces_;
     std::vector<float> force_values_;

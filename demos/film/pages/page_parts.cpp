@@ -159,7 +159,7 @@ std::string head_of(World& world, const PageOptions& options, const FrameUnits& 
                         {{"position", units.position_error()},
                          {"velocity", units.velocity_error()},
                          {"angle", units.angle_error()},
-                         {"force", units.force_error()}}},
+                         {"force", FrameUnits::force_error()}}},
                        {"low", listed(options.low)},
                        {"high", listed(options.high)},
                        {"colors", colors_of(options)},

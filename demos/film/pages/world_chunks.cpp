@@ -350,7 +350,7 @@ void WorldChunks::add_joints(ChunkBytes& to, const World& world, const FrameUnit
     }
     to.count(joints.size());
     to.part(broken.row);
-    joint_forces_.encode(to, forces, units.force, whole, units.slack);
+    joint_forces_.encode(to, forces, units.force, whole);
 }
 
 }  // namespace scree::demos

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// From so many bodies on frames may come near to what a viewer is to be sent. Then velocities and forces are coarse for a while.
+// From so many bodies on frames may come near to what a viewer is to be sent. Then they are short for a while.
 constexpr std::size_t crowd = 20'000;
 constexpr double most_bytes_a_second = 20e6;
 
@@ -170,7 +170,7 @@ void LiveStream::encode(const World* world) {
         if (moment_.has_joints) {
             frame.count(moment_.joint_forces.size());
             frame.part(moment_.broken.row);
-            lane.joints.encode(frame, moment_.joint_forces, lane.units.force, audience.whole, lane.units.slack);
+            lane.joints.encode(frame, moment_.joint_forces, lane.units.force, audience.whole);
         }
         if (moment_.camera) {
             frame.vector(moment_.camera->eye);
@@ -191,9 +191,9 @@ void LiveStream::encode(const World* world) {
         const double encoding = seconds_since(begun);
         const auto packing = Clock::now();
         const Message message = shared(packed_frame(block));
-        if (lane.units.crowd) {  // short frames, until there is room again
+        if (lane.units.crowd) {
             const double part = static_cast<double>(message->size()) / (most_bytes_a_second * lane.seconds);
-            lane.encoder->set_coarse(part > (lane.encoder->is_coarse() ? 0.6 : 0.85));
+            lane.encoder->set_short(part > (lane.encoder->is_short() ? 0.6 : 0.85));
         }
         {
             const std::lock_guard lock(mutex_);
