@@ -22,7 +22,7 @@ namespace {
 
 // Hulls have these many sizes within an interval of the curve, so that grains share them.
 constexpr int hull_sizes = 8;
-constexpr std::size_t most_forms = 10000;
+constexpr std::size_t most_forms = 10000, most_grains = 100'000'000;
 constexpr double curve_tolerance = 1;  // % of the mass, of a curve
 
 void check_region(const Examination& at, const GrainRegion& region) {
@@ -226,6 +226,7 @@ Shape GrainSupply::Impl::shape_of(std::size_t index) const {
 
 GrainSupply::GrainSupply(const Grains& grains, const std::string& place, std::size_t most) : impl_(std::make_unique<Impl>()) {
     check_grains(grains, place);
+    most = std::min(most, most_grains);
     Impl& in = *impl_;
     in.asked = grains;
     in.where = place;
@@ -236,8 +237,9 @@ GrainSupply::GrainSupply(const Grains& grains, const std::string& place, std::si
                              ? static_cast<double>(grains.fill) * volume_of(grains.region) * static_cast<double>(grains.density)
                              : static_cast<double>(grains.mass);
     const auto refuse = [&] {
-        throw SceneError(place, "these are more than " + std::to_string(most) +
-                                    " grains, which is what fits into the memory here; ask for fewer or larger ones");
+        throw SceneError(
+            place, "these are more than " + std::to_string(most) +
+                       " grains, which is what fits into the memory here, or may be in one scene; ask for fewer or larger ones");
     };
     double least = 0;  // number of grains, if all were as heavy as can be
     for (const GrainClass& one : classes) {
