@@ -95,7 +95,7 @@ void check_grains(const Grains& grains, const std::string& place);
 // whole grains can.
 class GrainSupply {
 public:
-    // Checks them. Throws SceneError likewise, also for more grains than `most`.
+    // Checks them. Throws SceneError likewise, also for more grains than `most`, or than 100 million.
     explicit GrainSupply(const Grains& grains, const std::string& place = "/grains",
                          std::size_t most = static_cast<std::size_t>(-1));
     ~GrainSupply();

@@ -8,6 +8,9 @@
 
 namespace scree {
 
+// Hulls have these many sizes within an interval of the curve, so that grains share them.
+constexpr int hull_sizes = 8;
+
 // The smallest square hole that points pass, in any turn: the least, over all turns, of the larger of two widths that are
 // across each other. Found by a coarse search over turns and a finer one around the best of them.
 double smallest_hole(const std::vector<glm::dvec3>& points);

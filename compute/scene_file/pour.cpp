@@ -79,8 +79,10 @@ glm::dvec3 point_within(const GrainRegion& region, double radius, SeededRandom& 
     }
     const auto& cylinder = std::get<GrainCylinder>(region);
     glm::dvec2 across;
-    do across = glm::dvec2(random.between(-1, 1), 0), across.y = static_cast<double>(random.between(-1, 1));
-    while (glm::dot(across, across) > 1);
+    do {
+        const float x = random.between(-1, 1), y = random.between(-1, 1);
+        across = {x, y};
+    } while (glm::dot(across, across) > 1);
     across *= static_cast<double>(cylinder.radius) - radius;
     const double height = radius + (static_cast<double>(cylinder.height) - 2 * radius) * part.y;
     return glm::dvec3(cylinder.base) + glm::dvec3(across.x, height, across.y);

@@ -245,6 +245,14 @@ TEST_CASE("grains that cannot be are refused with their place", "[grains]") {
     CHECK_THAT(with([](Grains& g) { g.sieve[1].size = NAN; }), Catch::StartsWith("/grains/3/sieve/1/size: must be"));
     CHECK_THAT(with([](Grains& g) { g.mass = 3; }), Catch::StartsWith("/grains/3: needs exactly one of"));
     CHECK_THAT(with([](Grains& g) { g.count = 0; }), Catch::StartsWith("/grains/3: needs exactly one of"));
+    for (const bool by_mass : {false, true})
+        CHECK_THAT(with([=](Grains& g) {
+                       g.count = by_mass ? 0 : 4'000'000'000u;
+                       g.mass = by_mass ? 1e15f : 0;
+                   }),
+                   Catch::StartsWith("/grains/3: these are more than 100000000 grains"));
+    CHECK_THAT(with([](Grains& g) { g.shapes.assign(9, {PolyhedronGrain{.variants = 256}}); }),
+               Catch::StartsWith("/grains/3/shapes: all variants in all intervals of the curve are 73728 hulls"));
     CHECK_THAT(with([](Grains& g) { g.from = 3; }), Catch::StartsWith("/grains/3/from: is of poured"));
     CHECK_THAT(with([](Grains& g) { g.density = -1; }), Catch::StartsWith("/grains/3/density: must be"));
     CHECK_THAT(with([](Grains& g) {
