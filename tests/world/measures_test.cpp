@@ -152,7 +152,7 @@ TEST_CASE("measures: the volume of a ball in a box is that of columns through it
     CHECK(ball_in_box(1, {0.5, -2, -2}, {2, 2, 2}) == Approx(pi * 0.25 * 2.5 / 3).epsilon(1e-14));
 }
 
-TEST_CASE("measures: cells of a grid share a shape out exactly, or to a thousandth where it is cut by points") {
+TEST_CASE("measures: cells of a grid share every shape out exactly") {
     const std::vector<vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1.2f, 0}, {0, 0, 0.8f}, {0.8f, 0.9f, 0.7f}, {-0.3f, 0.4f, 0.5f}};
     struct Case {
         Shape shape;
