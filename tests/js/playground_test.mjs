@@ -227,7 +227,7 @@ test('bodies of the fountain are born, and go', async () => {
 });
 
 test('a page that is opened from a file says that it needs a server', async () => {
-  const page = await browser.page(new URL(`${resolve(folder)}/index.html`, 'file:///').href, { still: false, ready: `!document.getElementById('trouble')?.hidden` });
+  const page = await browser.page(new URL(`${resolve(folder)}/index.html`, 'file:///').href, { still: false, ready: `document.getElementById('trouble')?.hidden === false` });
   assert.match(await page.evaluate(`document.getElementById('trouble').textContent`), /http\.server/);
   await page.close();
 });

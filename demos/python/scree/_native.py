@@ -419,7 +419,7 @@ class World:
             self._stepping = False
 
     def follow_demo(self, name: Optional[str], bodies: int, seed: int) -> None:
-        self._call(LIBRARY.scree_world_follow_demo, _text(name), bodies, seed)
+        self._call(LIBRARY.scree_world_follow_demo, None if name is None else _text(name), bodies, seed)
 
     def _step_aside(self, batch: int) -> None:
         done = threading.Event()
