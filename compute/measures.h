@@ -8,8 +8,9 @@
 //     const scree::Measures now = measuring.take(world);
 //
 // Grains are the solid dynamic bodies that exist. All other bodies are walls: they have contacts, and no volume, mass or
-// motion here. Forces are those of the last substep of the last step. Sums are taken in integers, so that no order of bodies or
-// contacts, no backend and no number of threads changes a bit. demos/docs/guide/measures.md has the definitions.
+// motion here. Forces are those of the last substep of the last step. Sums are taken in integers, or in the order of
+// bodies: no order of contacts, no backend and no number of threads changes a bit. demos/docs/guide/measures.md has the
+// definitions.
 #pragma once
 
 #include <array>
@@ -96,7 +97,7 @@ struct CellMeasures {
     std::uint64_t rattlers = 0;  // of these, with fewer than two touching neighbours
     // Mean number of bodies, walls included, that press on a grain.
     double coordination = 0;
-    // The same without rattlers, and without the contacts that rattlers have.
+    // The same of those that are no rattlers.
     double coordination_without_rattlers = 0;
     double mass = 0;         // kg, of the grains
     glm::dvec3 velocity{0};  // m/s, of their mass

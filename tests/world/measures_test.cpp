@@ -294,7 +294,7 @@ TEST_CASE("measures: coordination and fabric of lattices that are pressed togeth
     CHECK(of_row.all.fabric[4] == Approx(1).epsilon(1e-6));
     CHECK(of_row.all.coordination == Approx(10.0 / 6));
     CHECK(of_row.all.rattlers == 2);
-    CHECK(of_row.all.coordination_without_rattlers == Approx(6.0 / 4));
+    CHECK(of_row.all.coordination_without_rattlers == Approx(8.0 / 4));
 }
 
 TEST_CASE("measures: temperature, mean velocity and kinetic stress of a gas") {
