@@ -12,7 +12,7 @@ using namespace scree;
 
 TEST_CASE("skins: the mesh is drawn in place of its convex parts, unless they are asked for", "[mesh]") {
     host::set_environment("SCREE_CACHE", "off");
-    const Mesh cup = tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 32);
+    const Mesh cup = tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 16);
     Scene scene;
     for (int i = 0; i < 2; ++i) {
         Body body{.shape = cup};

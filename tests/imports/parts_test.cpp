@@ -24,7 +24,7 @@ const Compound& compound_of(const SceneDocument& document, std::size_t body) {
 
 TEST_CASE("imports: a cup of MJCF, URDF and OBJ is convex parts, a box its hull", "[mesh]") {
     Case file;
-    file.write("cup.obj", obj_of(tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 32)));
+    file.write("cup.obj", obj_of(tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 16)));
     file.write("box.obj", obj_of(tests::box_mesh({0, 0, 0}, {0.1f, 0.2f, 0.3f})));
     const SceneDocument mjcf =
         file.load("a.xml",
@@ -43,9 +43,9 @@ TEST_CASE("imports: a cup of MJCF, URDF and OBJ is convex parts, a box its hull"
     CHECK(compound_of(urdf, 0).parts.size() >= 8);
     CHECK(compound_of(urdf, 0).skins.size() == 1);
     CHECK(file.noted("convex parts; their surface is within"));
-    const SceneDocument obj = file.load("alone.obj", obj_of(tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 32)));
+    const SceneDocument obj = file.load("alone.obj", obj_of(tests::cup_mesh(0.4f, 1, 0.05f, 0.06f, 16)));
     CHECK(compound_of(obj, 0).parts.size() >= 8);
     // The mass of the mesh: walls and floor of a polygon of 32 sides.
-    const double area = 16 * std::sin(2 * 3.14159265358979 / 32);
+    const double area = 8 * std::sin(2 * 3.14159265358979 / 16);
     CHECK(double(obj.scene.bodies[0].inertial->mass) == Approx(1000 * area * (0.16 - 0.35 * 0.35 * 0.94)).epsilon(1e-4));
 }
