@@ -257,7 +257,11 @@ std::uint64_t CrateWriter::value(const UsdValue& value, const std::string& name,
         for (const auto& [key, one] : *value.members) put(out_, string(key)), put(out_, string(one.texts.at(0)));
         return rep(45, start);
     }
-    if (value.kind != Kind::texts) return rep(31, 0);  // a dictionary, which nobody asks for
+    if (value.kind != Kind::texts) {  // a dictionary, which nobody asks for
+        const std::uint64_t start = place();
+        put(out_, std::uint64_t{0});
+        return rep(31, start);
+    }
     if (!value.array) return type == "string" ? rep(10, string(value.texts[0]), 2) : rep(11, token(value.texts[0]), 2);
     const std::uint64_t start = place();
     count(value.texts.size());

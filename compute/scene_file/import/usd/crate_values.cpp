@@ -3,118 +3,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+
+#include "compute/scene_file/import/usd/crate_types.h"
 
 namespace scree::imports {
 
 namespace {
 
-// As crate files number them; pxr/usd/usd/crateDataTypes.h.
-enum CrateType : unsigned {
-    boolean = 1,
-    byte,
-    int32,
-    uint32,
-    int64,
-    uint64,
-    half,
-    single,
-    real,
-    text,
-    token,
-    asset,
-    matrix2,
-    matrix3,
-    matrix4,
-    quatd,
-    quatf,
-    quath,
-    vec2d,
-    vec2f,
-    vec2h,
-    vec2i,
-    vec3d,
-    vec3f,
-    vec3h,
-    vec3i,
-    vec4d,
-    vec4f,
-    vec4h,
-    vec4i,
-    dictionary,
-    token_edits,
-    string_edits,
-    path_edits,
-    reference_edits,
-    int_edits,
-    int64_edits,
-    uint_edits,
-    uint64_edits,
-    path_list,
-    token_list,
-    specifier,
-    permission,
-    variability,
-    selections,
-    samples,
-    payload,
-    doubles,
-    offsets,
-    string_list,
-    blocked,
-    any,
-    unregistered,
-    unregistered_edits,
-    payload_edits,
-    time_code,
-    path_expression
-};
-
-struct Layout {
-    CrateType part = boolean;
-    std::size_t width = 0;  // 0: no numbers
-};
-
-Layout layout_of(unsigned type) {
-    if (type >= boolean && type <= real) return {static_cast<CrateType>(type), 1};
-    if (type == matrix2) return {real, 4};
-    if (type == matrix3) return {real, 9};
-    if (type == matrix4) return {real, 16};
-    if (type == quatd) return {real, 4};
-    if (type == quatf) return {single, 4};
-    if (type == quath) return {half, 4};
-    if (type >= vec2d && type <= vec4i) {
-        static constexpr CrateType parts[] = {real, single, half, int32};
-        return {parts[(type - vec2d) % 4], 2 + (type - vec2d) / 4};
-    }
-    if (type == time_code) return {real, 1};
-    return {};
-}
-
-double half_of(std::uint16_t bits) {
-    const int power = (bits >> 10) & 31;
-    const double fraction = bits & 1023, sign = bits & 0x8000 ? -1 : 1;
-    if (power == 0) return sign * std::ldexp(fraction, -24);
-    if (power == 31) return fraction == 0 ? sign * HUGE_VAL : std::nan("");
-    return sign * std::ldexp(1024 + fraction, power - 25);
-}
-
-double number_at(CrateCursor& from, CrateType part) {
-    if (part == boolean || part == byte) return from.read<std::uint8_t>();
-    if (part == int32) return from.read<std::int32_t>();
-    if (part == uint32) return from.read<std::uint32_t>();
-    if (part == int64) return static_cast<double>(from.read<std::int64_t>());
-    if (part == uint64) return static_cast<double>(from.read<std::uint64_t>());
-    if (part == half) return half_of(from.read<std::uint16_t>());
-    if (part == single) return static_cast<double>(from.read<float>());
-    return from.read<double>();
-}
-
-std::size_t bytes_of_part(CrateType part) {
-    if (part == boolean || part == byte) return 1;
-    if (part == half) return 2;
-    return part == int32 || part == uint32 || part == single ? 4 : 8;
-}
+using namespace crate;
 
 class CrateValue {
 public:
@@ -203,7 +99,7 @@ UsdValue CrateValue::inlined(const Layout& layout) {
 }
 
 UsdValue CrateValue::numbers(const Layout& layout) {
-    const bool always_inlined = layout.width == 1 && bytes_of_part(layout.part) <= 4;
+    const bool always_inlined = layout.width == 1 && bytes_of(layout.part) <= 4;
     if (!array_ && (inlined_ || always_inlined)) return inlined(layout);
     UsdValue value;
     value.kind = UsdValue::Kind::numbers;
@@ -218,8 +114,7 @@ UsdValue CrateValue::numbers(const Layout& layout) {
         if (layout.width != 1) throw CrateError("an array of tuples is compressed");
         packed_numbers(layout, count, value.numbers);
     } else {
-        if (count * layout.width > from_.left() / bytes_of_part(layout.part))
-            throw CrateError("an array is longer than the file");
+        if (count * layout.width > from_.left() / bytes_of(layout.part)) throw CrateError("an array is longer than the file");
         value.numbers.reserve(static_cast<std::size_t>(count * layout.width));
         for (std::uint64_t i = 0; i < count * layout.width; ++i) value.numbers.push_back(number_at(from_, layout.part));
     }
