@@ -10,7 +10,7 @@ namespace scree::imports {
 
 namespace {
 
-constexpr std::uint64_t most_path_letters = std::uint64_t{1} << 28;
+constexpr std::uint64_t most_path_letters = 1'000'000;  // beside 64 a byte
 constexpr int deepest_crate = 200;
 
 class CrateTables {
@@ -70,6 +70,7 @@ void CrateTables::read_tokens() {
     CrateCursor from = section("TOKENS");
     const auto count = from.read<std::uint64_t>(), size = from.read<std::uint64_t>(), packed = from.read<std::uint64_t>();
     const std::string all = unpacked_bytes(from.take(packed), size);
+    if (count > crate_.bytes.size()) throw CrateError("it has more tokens than bytes");
     if (count > all.size()) throw CrateError("there are fewer tokens than it says");
     std::size_t at = 0;
     while (crate_.tokens.size() < count) {
@@ -106,6 +107,7 @@ void CrateTables::read_fields() {
 void CrateTables::read_field_sets() {
     CrateCursor from = section("FIELDSETS");
     const auto count = from.read<std::uint64_t>();
+    if (count > 8 * crate_.bytes.size()) throw CrateError("it has more fields than its bytes can tell");
     field_sets_ = indices(from, count);
 }
 
@@ -113,7 +115,7 @@ void CrateTables::read_field_sets() {
 void CrateTables::read_paths() {
     CrateCursor from = section("PATHS");
     const auto total = from.read<std::uint64_t>(), count = from.read<std::uint64_t>();
-    if (total > most_crate_numbers) throw CrateError("it has more than 50000000 paths");
+    if (std::max(total, count) > 4 * crate_.bytes.size()) throw CrateError("it has more paths than its bytes can tell");
     const std::vector<std::uint32_t> at = indices(from, count);
     const std::vector<std::int64_t> names = unpacked_integers(from, count, false), jumps = unpacked_integers(from, count, false);
     if (total > count + 1) throw CrateError("there are fewer paths than it says");
@@ -141,7 +143,8 @@ void CrateTables::read_paths() {
                 path = name < 0 ? parent + "." + token : variant ? parent + token : usd_child(parent, token);
             }
             letters += path.size();
-            if (letters > most_path_letters) throw CrateError("its paths are longer than 256 MB together");
+            if (letters > most_path_letters + 64 * crate_.bytes.size())
+                throw CrateError("its paths are longer than its bytes can tell");
             if (at[node] >= crate_.paths.size()) throw CrateError("a path has a number beyond their count");
             crate_.paths[at[node]] = path;
             const bool child = jump == -1 || jump > 0, sibling = jump >= 0;
@@ -183,6 +186,7 @@ void CrateTables::add_spec(std::uint32_t path, std::uint64_t field_set, std::int
 void CrateTables::read_specs() {
     CrateCursor from = section("SPECS");
     const auto count = from.read<std::uint64_t>();
+    if (count > 2 * crate_.bytes.size()) throw CrateError("it has more specs than its bytes can tell");
     const std::vector<std::uint32_t> paths = indices(from, count), sets = indices(from, count);
     const std::vector<std::int64_t> types = unpacked_integers(from, count, false);
     for (std::size_t i = 0; i < paths.size(); ++i) add_spec(paths[i], sets[i], types[i]);

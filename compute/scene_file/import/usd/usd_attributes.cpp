@@ -40,16 +40,19 @@ UsdValue UsdStage::value(const UsdPrim& prim, const std::string& name) const {
     for (const UsdSite& site : prim.sites) {
         const std::string path = site.path + "." + name;
         for (const UsdStack::Entry& one : site.stack->layers) {
+            look(prim, 1);
             const UsdSpec* spec = one.layer->find(path);
             if (!spec) continue;
             const UsdValue samples = one.layer->value(*spec, "timeSamples");
             if (samples.kind == UsdValue::Kind::samples && !samples.samples->empty()) {
+                look(prim, samples.samples->size());
                 const double offset = site.offset + site.scale * one.offset, scale = site.scale * one.scale;
                 UsdValue found = time ? sample_at(samples, (*time - offset) / scale) : only(samples);
                 return found.kind == UsdValue::Kind::blocked ? UsdValue{} : found;
             }
             const UsdValue value = one.layer->value(*spec, "default");
             if (value.kind == UsdValue::Kind::blocked) return {};
+            look(prim, value.numbers.size() / 64 + value.texts.size() / 8);
             if (value.kind != UsdValue::Kind::none) return value;
         }
     }

@@ -1,6 +1,7 @@
 // Collision groups and filtered pairs of UsdPhysics.
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
 #include "compute/scene_file/import/usd/usd_physics.h"
 
@@ -10,20 +11,24 @@ namespace {
 
 constexpr std::size_t most_classes = 31;  // of colliders with equal groups; a filter has 32 bits
 
-bool lies_at_or_below(const std::string& path, const std::string& above) {
-    return path.starts_with(above) &&
-           (path.size() == above.size() || path[above.size()] == '/' || path[above.size()] == '[' || above == "/");
-}
-
 struct Group {
     std::string name;  // of those that are merged with it, or its path
     std::vector<std::string> includes, excludes, filtered;
     bool inverted = false;
-    bool has(const std::string& path) const {
-        const auto within = [&](const std::string& one) { return lies_at_or_below(path, one); };
-        return std::any_of(includes.begin(), includes.end(), within) && std::none_of(excludes.begin(), excludes.end(), within);
-    }
 };
+
+// Groups by the paths that they include or exclude.
+using ByPath = std::unordered_map<std::string, std::vector<std::size_t>>;
+
+// Of a path and all above it.
+std::set<std::size_t> groups_at(const ByPath& known, const std::string& path) {
+    std::set<std::size_t> groups;
+    for (std::size_t end = path.size(); end > 0 && end != path.npos; end = path.find_last_of("/[", end - 1)) {
+        const auto found = known.find(path.substr(0, end));
+        if (found != known.end()) groups.insert(found->second.begin(), found->second.end());
+    }
+    return groups;
+}
 
 std::vector<Group> groups_of(const UsdStage& stage, const UsdFound& found) {
     std::vector<Group> groups;
@@ -58,12 +63,20 @@ bool filters(const std::vector<Group>& groups, const std::set<std::string>& a, c
 
 void add_usd_groups(const UsdStage& stage, UsdFound& found, Model& model, Notes& notes) {
     if (found.groups.empty()) return;
+    constexpr std::size_t most_groups = 1000;
+    if (found.groups.size() > most_groups) refuse(stage.at(*found.groups[0]), "is one of more than 1000 collision groups");
     const std::vector<Group> groups = groups_of(stage, found);
     std::vector<std::set<std::string>> classes{{}};
+    ByPath includes, excludes;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (const std::string& path : groups[i].includes) includes[path].push_back(i);
+        for (const std::string& path : groups[i].excludes) excludes[path].push_back(i);
+    }
     for (UsdCollider& collider : found.colliders) {
         std::set<std::string> in;
-        for (const Group& group : groups)
-            if (group.has(collider.path)) in.insert(group.name);
+        const std::set<std::size_t> without = groups_at(excludes, collider.path);
+        for (const std::size_t group : groups_at(includes, collider.path))
+            if (!without.contains(group)) in.insert(groups[group].name);
         collider.group = static_cast<std::size_t>(std::find(classes.begin(), classes.end(), in) - classes.begin());
         if (collider.group == classes.size()) classes.push_back(in);
         if (classes.size() > most_classes)
@@ -109,7 +122,8 @@ UsdIndex index_of(const UsdFound& found, const Model& model) {
 }
 
 void add_usd_pairs(const UsdStage& stage, const UsdFound& found, const UsdIndex& index, Scene& scene, Notes& notes) {
-    constexpr std::size_t most_exclusions = 1'000'000;
+    constexpr std::size_t most_pairs = 10'000'000;
+    std::size_t pairs = 0;
     std::set<std::pair<std::size_t, std::size_t>> all;
     for (const UsdPrim* prim : found.pairs) {
         const std::vector<std::size_t> own = index.below(prim->path);
@@ -118,9 +132,9 @@ void add_usd_pairs(const UsdStage& stage, const UsdFound& found, const UsdIndex&
             if (others.empty()) notes.add(stage.at(*prim), "filteredPairs", "names a prim without bodies and colliders");
             for (const std::size_t a : own)
                 for (const std::size_t b : others) {
+                    if (++pairs > most_pairs) refuse(stage.at(*prim), "with it more than 10000000 pairs are filtered");
                     const bool moves = scene.bodies[a].motion != Motion::fixed || scene.bodies[b].motion != Motion::fixed;
                     if (a != b && moves) all.insert(std::minmax(a, b));
-                    if (all.size() > most_exclusions) refuse(stage.at(*prim), "filters more than 1000000 pairs");
                 }
         }
     }

@@ -47,12 +47,18 @@ std::vector<UsdItem> composed_list(const UsdSite& site, const std::string& field
     return list;
 }
 
-bool says(const UsdSite& site) {
+}  // namespace
+
+void UsdStage::look(const UsdPrim& prim, std::size_t times) const {
+    constexpr std::size_t most_looks = 100'000'000;
+    if ((looks_ += times) > most_looks) refuse(at(prim), "the scene's layers would be asked more than 100000000 times");
+}
+
+bool UsdStage::says(const UsdPrim& prim, const UsdSite& site) const {
+    look(prim, site.stack->layers.size());
     return std::any_of(site.stack->layers.begin(), site.stack->layers.end(),
                        [&](const UsdStack::Entry& one) { return one.layer->find(site.path) != nullptr; });
 }
-
-}  // namespace
 
 bool UsdPrim::applies(const std::string& schema) const {
     return std::find(schemas.begin(), schemas.end(), schema) != schemas.end();
@@ -124,7 +130,7 @@ void UsdStage::arcs(Expansion& all, const UsdSite& site, const std::string& fiel
         if (target.stack == site.stack && lies_under(here, target.path))
             refuse(at(all.prim), "refers to itself, or to what it lies in");
         target.rename = std::make_shared<UsdRename>(UsdRename{target.path, here, target.stack == site.stack, site.rename});
-        if (!says(target)) {
+        if (!says(all.prim, target)) {
             if (!inside) notes_.add(at(all.prim), field, "to " + target.path + " bring nothing: that prim is not there");
             continue;
         }
@@ -136,6 +142,7 @@ void UsdStage::variants(Expansion& all, const UsdSite& site, int depth) {
     for (const UsdItem& set : composed_list(site, "variantSetNames")) {
         std::string choice;
         for (const UsdSite& strong : all.sites) {
+            look(all.prim, strong.stack->layers.size());
             for (const UsdStack::Entry& one : strong.stack->layers) {
                 const UsdValue chosen = one.layer->value(strong.path, "variantSelection");
                 if (!choice.empty() || !chosen.members) continue;
@@ -149,7 +156,7 @@ void UsdStage::variants(Expansion& all, const UsdSite& site, int depth) {
         }
         UsdSite target = site;
         target.path = site.path + "{" + set.text + "=" + choice + "}";
-        if (says(target)) expand(all, target, depth + 1);
+        if (says(all.prim, target)) expand(all, target, depth + 1);
     }
 }
 
@@ -157,7 +164,8 @@ void UsdStage::expand(Expansion& all, const UsdSite& site, int depth) {
     if (depth > deepest_arcs || all.sites.size() > 1000) refuse(at(all.prim), "has references deeper than 60, or more than 1000");
     const std::pair<const UsdStack*, std::string> here{site.stack.get(), site.path};
     if (std::find(all.open.begin(), all.open.end(), here) != all.open.end()) refuse(at(all.prim), "its references are a circle");
-    if (++sites_ > most_sites) refuse(at(all.prim), "the scene has more than 4000000 opinions on prims");
+    if ((sites_ += site.stack->layers.size()) > most_sites)
+        refuse(at(all.prim), "the scene has more than 4000000 opinions on prims");
     all.open.push_back(here);
     all.sites.push_back(site);
     arcs(all, site, "inheritPaths", depth);
@@ -221,7 +229,7 @@ void UsdStage::compose(UsdPrim& prim, int depth) {
             if (prim.instance && site.own) continue;
             UsdSite below = site;
             below.path = usd_child(site.path, name);
-            if (says(below)) expand(all, below, 0);
+            if (says(*child, below)) expand(all, below, 0);
         }
         describe(*child);
         prims_[child->path] = child.get();
@@ -260,7 +268,9 @@ std::vector<std::string> UsdStage::targets(const UsdPrim& prim, const std::strin
     std::vector<UsdItem> list;
     for (auto site = prim.sites.rbegin(); site != prim.sites.rend(); ++site)
         for (auto one = site->stack->layers.rbegin(); one != site->stack->layers.rend(); ++one) {
+            look(prim, 1);
             UsdValue value = one->layer->value(site->path + "." + name, "targetPaths");
+            for (const auto& [edit, items] : value.edits.all) look(prim, items.size());
             for (auto& [edit, items] : value.edits.all) {
                 for (UsdItem& item : items) item.path = renamed(usd_plain(item.path), site->rename.get());
                 std::erase_if(items, [](const UsdItem& item) { return item.path.empty(); });

@@ -94,6 +94,10 @@ private:
     std::map<std::string, std::shared_ptr<const UsdStack>> stacks_;
     std::unique_ptr<UsdPrim> root_;
     std::map<std::string, const UsdPrim*> prims_;
+    // Looks at layers, and their numbers in part: what is small on disk may refer to itself a billion times over.
+    void look(const UsdPrim& prim, std::size_t times) const;
+    bool says(const UsdPrim& prim, const UsdSite& site) const;
+    mutable std::size_t looks_ = 0;
     std::size_t sites_ = 0;
 };
 

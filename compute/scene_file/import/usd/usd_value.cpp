@@ -2,21 +2,24 @@
 #include "compute/scene_file/import/usd/usd_value.h"
 
 #include <algorithm>
+#include <set>
 
 namespace scree::imports {
 
 void apply_edits(const UsdEdits& edits, std::vector<UsdItem>& list) {
     const auto without = [&](const std::vector<UsdItem>& items) {
-        std::erase_if(list, [&](const UsdItem& one) { return std::find(items.begin(), items.end(), one) != items.end(); });
+        const std::set<UsdItem> gone(items.begin(), items.end());
+        std::erase_if(list, [&](const UsdItem& one) { return gone.contains(one); });
     };
     for (const auto& [edit, items] : edits.all) {
         if (edit == UsdEdit::whole) list = items;
         if (edit == UsdEdit::deleted) without(items);
         if (edit == UsdEdit::prepended) without(items), list.insert(list.begin(), items.begin(), items.end());
         if (edit == UsdEdit::appended) without(items), list.insert(list.end(), items.begin(), items.end());
-        if (edit == UsdEdit::added)
-            for (const UsdItem& item : items)
-                if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+        if (edit != UsdEdit::added) continue;
+        std::set<UsdItem> known(list.begin(), list.end());
+        for (const UsdItem& item : items)
+            if (known.insert(item).second) list.push_back(item);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct UsdItem {
     std::string text, path;
     double offset = 0, scale = 1;
     bool operator==(const UsdItem& o) const { return text == o.text && path == o.path; }
+    bool operator<(const UsdItem& o) const { return std::tie(text, path) < std::tie(o.text, o.path); }
 };
 
 enum class UsdEdit { whole, added, prepended, appended, deleted, ordered };

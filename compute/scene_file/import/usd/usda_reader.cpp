@@ -54,6 +54,8 @@ void Usda::keep(UsdSpec& spec, const std::string& name, UsdValue value) {
             known = std::move(value);
         return;
     }
+    constexpr std::size_t most_fields = 1000;
+    if (spec.fields.size() >= most_fields) fail("a prim or property has more than 1000 metadata");
     spec.fields.emplace_back(name, std::move(value));
 }
 
