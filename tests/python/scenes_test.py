@@ -98,6 +98,23 @@ class Imports(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "axes: is"):
             scree.load(os.path.join(folder, "quadruped.xml"), axes="z")
 
+    def test_a_set_of_usd(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "set.usda")
+            with open(path, "w") as file:
+                file.write('#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = "Z"\n)\ndef Sphere "ball" (\n    prepend apiSchemas = '
+                           '["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]\n)\n{\n    double radius = 25\n'
+                           '    double3 xformOp:translate = (0, 0, 400)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+                           'def DistantLight "sun" {}\n')
+            world = scree.World(scree.load(path), backend="cpu")
+            ball = world["/ball"]
+            np.testing.assert_allclose(world.position[ball], (0, 4, 0), atol=1e-6)
+            self.assertTrue(any("/sun: DistantLight" in note for note in scree.load(path).notes))
+            world.run(seconds=.5)
+            self.assertAlmostEqual(world.position[ball][1], 4 - 9.81 / 8, delta=.05)
+            with self.assertRaisesRegex(scree.SceneError, "/sun"):
+                scree.load(path, strict=True)
+
     def test_a_broken_robot_names_file_and_line(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "robot.urdf")

@@ -224,6 +224,10 @@ void Joints::separate(const End& a, const End& b) {
 }
 
 void Joints::add(const UsdPrim& prim) {
+    for (const char* number : {"0", "1"})
+        for (const std::string& target : stage_.targets(prim, std::string("physics:body") + number))
+            if (const UsdPrim* body = stage_.find(target); body && !body->defined)
+                return notes_.add(stage_.at(prim), "joint", "names a prim that is inactive or an over alone, and is left out");
     const End a = end(prim, "0"), b = end(prim, "1");
     const auto moves = [&](const End& one) { return one.body != the_world && scene_.bodies[one.body].motion == Motion::dynamic; };
     if (a.body == b.body || (!moves(a) && !moves(b)))
