@@ -41,7 +41,7 @@ UsdInput usd_input(const std::filesystem::path& path, const ImportOptions& optio
         const Placed placed = placed_of(rigid.world);
         body.stretch = matrix_of(inverse(placed)) * rigid.world;
         body.placed = root * placed;
-        body.above = matrix_of(root) * rigid.above;
+        body.above = matrix_of(root) * (rigid.instancer ? rigid.of_instancer : rigid.above);
         body.carrier = rigid.carrier, body.resets = rigid.resets;
         for (const UsdPrim* one = rigid.prim; one && !rigid.instancer; one = one->parent)
             if (one->instance) body.instances.push_back(one->path);

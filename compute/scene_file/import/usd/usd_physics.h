@@ -39,10 +39,10 @@ struct UsdRigid {
     glm::dmat4 world, above;           // m; above: of its parent
     std::size_t carrier = no_carrier;  // of the bodies, that above which it lies
     bool resets = false;               // its transform leaves out what lies above
-    // Of the root of a prototype of a point instancer: that, which instance it is, and its own transform within.
+    // Of the root of a prototype of a point instancer: that, which instance it is, the instancer's transform, and its own within.
     const UsdPrim* instancer = nullptr;
     std::size_t instance = 0;
-    glm::dmat4 within{1};
+    glm::dmat4 of_instancer{1}, within{1};
 
     static constexpr std::size_t no_carrier = static_cast<std::size_t>(-1);
 };

@@ -39,8 +39,8 @@ bool is_known_schema(const std::string& schema) {
 struct Above {  // what a prim takes from those above it
     glm::dmat4 world;
     std::size_t body = world_body;
-    std::string material;
-    double density = 0;  // kg/m^3
+    std::string material, of_physics;  // bound for all purposes, and for physics, which counts if there is one
+    double density = 0;                // kg/m^3
     int depth = 0;
     // Of a point instancer, while its prototype's root is at hand.
     const UsdPrim* instancer = nullptr;
@@ -116,7 +116,8 @@ void Walk::note_rest(const UsdPrim& prim, const Above& here) {
 void Walk::collect(const UsdPrim& prim, const Above& here, const std::string& path) {
     if (!model) return;
     if (prim.applies("PhysicsCollisionAPI") && stage_.flag(prim, "physics:collisionEnabled", true))
-        found.colliders.push_back({&prim, path, here.world, here.body, here.material, here.density});
+        found.colliders.push_back(
+            {&prim, path, here.world, here.body, here.of_physics.empty() ? here.material : here.of_physics, here.density});
     else if (here.body != world_body && is_drawn_type(prim.type))
         found.colliders.push_back({&prim, path, here.world, here.body, "", -1});  // for its colour alone
     if (is_joint_type(prim.type) && stage_.flag(prim, "physics:jointEnabled", true)) found.joints.push_back(&prim);
@@ -178,19 +179,20 @@ void Walk::walk(const UsdPrim& prim, const Above& above, const std::string& path
     here.world = parent * local;
     for (int k = 0; k < 16; ++k)
         if (!(std::abs(here.world[k / 4][k % 4]) < 1e15)) refuse(stage_.at(prim), "its transform leaves the range of numbers");
-    for (const char* binding : {"material:binding", "material:binding:physics"}) {
+    for (const auto& [binding, bound] :
+         {std::pair{"material:binding", &here.material}, std::pair{"material:binding:physics", &here.of_physics}}) {
         const auto targets = stage_.targets(prim, binding);
-        if (!targets.empty()) here.material = targets[0];
+        if (!targets.empty()) *bound = targets[0];
     }
     const double per_volume = units_.kilograms / (units_.meters * units_.meters * units_.meters);
     if (prim.applies("PhysicsMassAPI"))
         if (const double density = stage_.number(prim, "physics:density", 0); density > 0) here.density = density * per_volume;
     if (prim.applies("PhysicsRigidBodyAPI") && stage_.flag(prim, "physics:rigidBodyEnabled", true)) {
-        UsdRigid rigid{&prim, path, here.world, above.instancer ? above.of_instancer : parent};
+        UsdRigid rigid{&prim, path, here.world, parent};
         rigid.resets = resets;
         if (above.body != world_body) rigid.carrier = above.body - 1;
         rigid.instancer = above.instancer, rigid.instance = above.instance;
-        rigid.within = local;
+        rigid.of_instancer = above.of_instancer, rigid.within = local;
         add_body(std::move(rigid));
         here.body = found.bodies.size();
     }
