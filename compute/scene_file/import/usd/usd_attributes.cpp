@@ -50,9 +50,9 @@ UsdValue UsdStage::value(const UsdPrim& prim, const std::string& name) const {
                 UsdValue found = time ? sample_at(samples, (*time - offset) / scale) : only(samples);
                 return found.kind == UsdValue::Kind::blocked ? UsdValue{} : found;
             }
-            const UsdValue value = one.layer->value(*spec, "default");
+            UsdValue value = one.layer->value(*spec, "default");
             if (value.kind == UsdValue::Kind::blocked) return {};
-            look(prim, value.numbers.size() / 64 + value.texts.size() / 8);
+            look(prim, value.numbers.size() / 2 + value.texts.size());
             if (value.kind != UsdValue::Kind::none) return value;
         }
     }
