@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/usd/usd_stage.h"
 
 namespace scree::imports {
@@ -19,10 +20,17 @@ bool finite(const std::vector<double>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::abs(x) <= 1e30; });
 }
 
+// By right angles exactly.
 dmat3 turned_about(int axis, double degrees) {
-    dvec3 about(0);
-    about[axis] = 1;
-    return glm::mat3_cast(glm::angleAxis(degrees * degree, about));
+    const double turns = degrees / 90;
+    const bool right = turns == std::round(turns) && std::abs(turns) < 1e9;
+    const auto quarter = right ? static_cast<int>(std::fmod(turns, 4) + 4) % 4 : 0;
+    const double c = right ? (quarter == 0 ? 1 : quarter == 2 ? -1 : 0) : portable::cos(std::fmod(degrees, 360) * degree);
+    const double s = right ? (quarter == 1 ? 1 : quarter == 3 ? -1 : 0) : portable::sin(std::fmod(degrees, 360) * degree);
+    const int y = (axis + 1) % 3, z = (axis + 2) % 3;
+    dmat3 turn(1);
+    turn[y][y] = c, turn[y][z] = s, turn[z][y] = -s, turn[z][z] = c;
+    return turn;
 }
 
 }  // namespace

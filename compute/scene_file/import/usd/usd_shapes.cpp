@@ -217,7 +217,8 @@ void Shapes::add(UsdCollider& collider) {
     if (!collider.material.empty()) like.material = usd_material(stage_, collider.material, notes_);
     const UsdPrim* material = collider.material.empty() ? nullptr : stage_.find(collider.material);
     if (material && material->applies("PhysicsMaterialAPI") && !(density > 0))
-        density = stage_.number(*material, "physics:density", 0) * units_.kilograms / std::pow(units_.meters, 3);
+        density =
+            stage_.number(*material, "physics:density", 0) * units_.kilograms / (units_.meters * units_.meters * units_.meters);
     SolidMass mass;
     collider.first = model_.bodies[collider.body].geometries.size();
     if (prim.type == "Mesh")
