@@ -243,7 +243,7 @@ void UsdLayerWriter::begin(const Animated& all) {
 
 void UsdLayerWriter::add(const Animated& all, const Moment& moment) {
     Impl& in = *interior_;
-    const double time = in.last = in.input.start + moment.time * in.input.time_codes;
+    const double time = in.last = in.input.start + std::round(moment.time * in.input.time_codes * 1e9) / 1e9;
     const std::vector<dmat4> worlds = in.worlds(all);
     for (std::size_t i = 0; i < worlds.size(); ++i) {
         const UsdBodyPrim& body = in.input.bodies[i];

@@ -19,7 +19,8 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> of_other_commands = {".glb", ".gltf", ".usdc", ".png", ".exr", ".mp4", ".csv"};
+constexpr std::array<std::string_view, 9> of_other_commands = {".glb", ".gltf", ".usd", ".usdc", ".usdz",
+                                                               ".png", ".exr",  ".mp4", ".csv"};
 
 struct SceneExportOptions {
     SceneOptions scene;
