@@ -101,6 +101,9 @@ struct Over {
 std::string vector_text(const dvec3& v) {
     return fmt::format("({}, {}, {})", v.x, v.y, v.z);
 }
+std::string scale_text(const glm::vec3& v) {
+    return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
 std::string turn_text(const dquat& q) {
     return fmt::format("({}, {}, {}, {})", static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
                        static_cast<float>(q.z));
@@ -278,7 +281,7 @@ void UsdLayerWriter::write(const Animated&) {
                 "    quatf xformOp:orient.timeSamples = {{\n{}    }}\n    float3 xformOp:scale = {}\n"
                 "    double3 xformOp:translate.timeSamples = {{\n{}    }}\n    uniform token[] xformOpOrder = "
                 "[{}\"xformOp:translate\", \"xformOp:orient\", \"xformOp:scale\"]\n",
-                track.turn.text, vector_text(track.scale), track.position.text, reset);
+                track.turn.text, scale_text(glm::vec3(track.scale)), track.position.text, reset);
         root.at(body.path).text += text;
     }
     for (std::size_t k = 0; k < in.input.instancers.size(); ++k)

@@ -201,14 +201,19 @@ void UsdScene::put_body(std::size_t index) {
     }
     if (dynamic) {
         const MassProperties mass = mass_properties(body);
-        schemas += ", \"PhysicsMassAPI\", \"PhysxRigidBodyAPI\"";
+        schemas += ", \"PhysicsMassAPI\"";
         fmt::format_to(Out(says),
                        "        float physics:mass = {}\n        point3f physics:centerOfMass = (0, 0, 0)\n        float3 "
                        "physics:diagonalInertia = {}\n"
-                       "        quatf physics:principalAxes = (1, 0, 0, 0)\n        float physxRigidBody:linearDamping = {}\n"
-                       "        float physxRigidBody:angularDamping = {}\n",
-                       mass.mass, triple(mass.inertia), body.linear_damping, body.angular_damping);
-        if (body.gravity_scale == 0) says += "        bool physxRigidBody:disableGravity = 1\n";
+                       "        quatf physics:principalAxes = (1, 0, 0, 0)\n",
+                       mass.mass, triple(mass.inertia));
+        if (body.linear_damping > 0 || body.angular_damping > 0 || body.gravity_scale == 0) {
+            schemas += ", \"PhysxRigidBodyAPI\"";
+            fmt::format_to(Out(says),
+                           "        float physxRigidBody:linearDamping = {}\n        float physxRigidBody:angularDamping = {}\n",
+                           body.linear_damping, body.angular_damping);
+            if (body.gravity_scale == 0) says += "        bool physxRigidBody:disableGravity = 1\n";
+        }
         if (body.gravity_scale != 0 && body.gravity_scale != 1) note("gravity scales other than 0 and 1 are left out");
     }
     std::string pairs;

@@ -412,7 +412,7 @@ std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files
         out += file.first + file.second;
         put(table, 0x02014B50, 4), put(table, 20, 2);
         common(table, file);
-        put(table, 0, 10), put(table, start, 4);
+        put(table, 0, 8), put(table, 0, 2), put(table, start, 4);
         table += file.first;
     }
     const std::size_t begin = out.size();

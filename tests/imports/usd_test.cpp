@@ -306,6 +306,11 @@ TEST_CASE("imports: what USD has and scree has not is noted once, with the first
     CHECK(file.noted("a.usda: /s: PhysxParticleAPI: is left out (and 1 more)"));
     CHECK(file.noted("a.usda: /sun: DistantLight: is left out"));
     CHECK(file.noted("a.usda: /prop: geometry: without PhysicsCollisionAPI is left out"));
+    file.load("a.usda",
+              usda(rigid("Sphere", "s", "float physxRigidBody:linearDamping = 2\nfloat physxRigidBody:sleepThreshold = 1\n",
+                         ", \"PhysxRigidBodyAPI\"")));
+    CHECK(file.notes.size() == 1);
+    CHECK(file.noted("a.usda: /s: physxRigidBody:sleepThreshold: is left out"));
     ImportOptions strict;
     strict.strict = true;
     CHECK(file.refusal("a.usda", usda(rigid("Sphere", "s", "") + "def DistantLight \"sun\" {}"), strict).find("a.usda: /sun") ==

@@ -54,7 +54,7 @@ void finish_usd_masses(const UsdStage& stage, const UsdUnits& units, const UsdFo
     }
 }
 
-Material usd_material(const UsdStage& stage, const std::string& path, Notes& notes) {
+Material usd_material(const UsdStage& stage, const std::string& path) {
     Material material;
     const UsdPrim* prim = stage.find(path);
     if (!prim || !prim->applies("PhysicsMaterialAPI")) return material;
@@ -67,8 +67,6 @@ Material usd_material(const UsdStage& stage, const std::string& path, Notes& not
     if (material.static_friction <= material.friction) material.static_friction = unset;
     material.friction_rule = rule_of(stage.text(*prim, "physxMaterial:frictionCombineMode", ""), CombineRule::usual);
     material.restitution_rule = rule_of(stage.text(*prim, "physxMaterial:restitutionCombineMode", ""), CombineRule::usual);
-    if (prim->applies("PhysxMaterialAPI") && stage.flag(*prim, "physxMaterial:compliantContactStiffness", false))
-        notes.add(stage.at(*prim), "compliantContactStiffness", "is left out");
     return material;
 }
 

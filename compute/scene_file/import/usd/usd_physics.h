@@ -62,7 +62,7 @@ UsdFound found_in(const UsdStage& stage, const UsdUnits& units, Model* model, No
 void add_usd_shapes(const UsdStage& stage, const UsdUnits& units, UsdFound& found, Model& model, Notes& notes);
 void finish_usd_masses(const UsdStage& stage, const UsdUnits& units, const UsdFound& found, const std::vector<SolidMass>& shapes,
                        Model& model, Notes& notes);
-Material usd_material(const UsdStage& stage, const std::string& path, Notes& notes);
+Material usd_material(const UsdStage& stage, const std::string& path);
 
 // Classes of colliders, and which of them collide.
 void add_usd_groups(const UsdStage& stage, UsdFound& found, Model& model, Notes& notes);

@@ -214,7 +214,7 @@ void Shapes::add(UsdCollider& collider) {
     like.color = color_of(prim);
     like.collides_as = collider.group;
     double density = collider.density;
-    if (!collider.material.empty()) like.material = usd_material(stage_, collider.material, notes_);
+    if (!collider.material.empty()) like.material = usd_material(stage_, collider.material);
     const UsdPrim* material = collider.material.empty() ? nullptr : stage_.find(collider.material);
     if (material && material->applies("PhysicsMaterialAPI") && !(density > 0))
         density =

@@ -32,8 +32,15 @@ bool is_silent_type(const std::string& type) {
 }
 bool is_known_schema(const std::string& schema) {
     return is_one_of(schema, {"PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI", "PhysicsMassAPI",
-                              "PhysicsMaterialAPI", "PhysicsFilteredPairsAPI", "PhysicsArticulationRootAPI"}) ||
+                              "PhysicsMaterialAPI", "PhysicsFilteredPairsAPI", "PhysicsArticulationRootAPI", "PhysxRigidBodyAPI",
+                              "PhysxJointAPI", "PhysxMaterialAPI"}) ||
            schema.starts_with("PhysicsLimitAPI:") || schema.starts_with("PhysicsDriveAPI:");
+}
+
+// Of schemas that USD itself does not have.
+bool is_known_attribute(const std::string& name) {
+    return is_one_of(name, {"physxRigidBody:linearDamping", "physxRigidBody:angularDamping", "physxRigidBody:disableGravity",
+                            "physxJoint:armature", "physxMaterial:frictionCombineMode", "physxMaterial:restitutionCombineMode"});
 }
 
 struct Above {  // what a prim takes from those above it
@@ -98,19 +105,18 @@ void Walk::note_rest(const UsdPrim& prim, const Above& here) {
     if (!is_silent_type(prim.type) && !is_one_of(prim.type, {"PhysicsScene", "PhysicsCollisionGroup", "PointInstancer"}))
         notes_.add(stage_.at(prim), prim.type.substr(0, 60), "is left out");
     for (const std::string& schema : prim.schemas)
-        if (!is_known_schema(schema) && (schema.starts_with("Physics") || schema.starts_with("Physx"))) {
-            const bool partly = is_one_of(schema, {"PhysxRigidBodyAPI", "PhysxJointAPI", "PhysxMaterialAPI"});
-            notes_.add(stage_.at(prim), schema.substr(0, 60),
-                       partly ? "counts in part: damping, disableGravity, armature and combine modes" : "is left out");
-        }
+        if (!is_known_schema(schema) && (schema.starts_with("Physics") || schema.starts_with("Physx")))
+            notes_.add(stage_.at(prim), schema.substr(0, 60), "is left out");
     if (is_drawn_type(prim.type) && !prim.applies("PhysicsCollisionAPI"))
         notes_.add(stage_.at(prim), "geometry", "without PhysicsCollisionAPI is left out, but for its colour");
-    for (const std::string& name : stage_.properties(prim))
-        if (here.body != world_body || prim.applies("PhysicsCollisionAPI"))
-            if (name.starts_with("xformOp:") && stage_.moves(prim, name)) {
-                notes_.add(stage_.at(prim), "timeSamples", "of transforms are left out but for the start; physics moves bodies");
-                break;
-            }
+    bool moves = false;
+    for (const std::string& name : stage_.properties(prim)) {
+        if (name.starts_with("physxRigidBody:") || name.starts_with("physxJoint:") || name.starts_with("physxMaterial:"))
+            if (!is_known_attribute(name)) notes_.add(stage_.at(prim), name.substr(0, 60), "is left out");
+        if (here.body == world_body && !prim.applies("PhysicsCollisionAPI")) continue;
+        moves = moves || (name.starts_with("xformOp:") && stage_.moves(prim, name));
+    }
+    if (moves) notes_.add(stage_.at(prim), "timeSamples", "of transforms are left out but for the start; physics moves bodies");
 }
 
 void Walk::collect(const UsdPrim& prim, const Above& here, const std::string& path) {
