@@ -231,7 +231,7 @@ TEST_CASE("imports: groups and filtered pairs of USD do not meet") {
     for (const Exclusion& one : scene.exclusions) CHECK((scene.bodies[one.a].name == "/c" || scene.bodies[one.b].name == "/c"));
 }
 
-TEST_CASE("imports: meshes of USD that stand still stay meshes; approximations are kept") {
+TEST_CASE("imports: meshes of USD that stand still stay meshes, and approximations are kept") {
     Case file;
     const auto mesh = [](const std::string& how) {
         return "uniform token physics:approximation = \"" + how +
