@@ -84,7 +84,7 @@ std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size
     return times;
 }
 
-// push.pass of shaders/stages/substeps.comp: `part` of `whole` substeps, after `before`.
+// push.pass of shaders/stages/contacts/substeps.comp: `part` of `whole` substeps, after `before`.
 std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
     return before | part << 8 | whole << 16;
 }

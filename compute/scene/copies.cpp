@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/compile/state_editor.h"
-#include "compute/scene/joint_validation.h"
+#include "compute/scene/validation/joint_validation.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

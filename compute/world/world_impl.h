@@ -17,13 +17,13 @@
 
 #include "compute/distributed/ranks.h"
 #include "compute/scene/copies.h"
-#include "compute/scene/joint_validation.h"
+#include "compute/scene/validation/joint_validation.h"
 #include "compute/statistics.h"
 #include "compute/tables/table_ranges.h"
 #include "compute/world.h"
-#include "compute/world/events.h"
-#include "compute/world/query_scene.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/queries/events.h"
+#include "compute/world/queries/query_scene.h"
+#include "compute/world/states/state_bytes.h"
 
 namespace scree {
 

@@ -2,17 +2,11 @@
 #ifndef SCREE_RENDER_DETAIL_H
 #define SCREE_RENDER_DETAIL_H
 
-#include "shaders/physics/base/records.h"
+#include "shaders/render/body_tables.h"
 #include "shaders/render/frame.h"
 
 layout(local_size_x = 128) in;  // DETAIL_GROUP
 
-layout(std430, set = 0, binding = 0) readonly buffer PropertiesTable {
-    BodyProperties properties[];
-};
-layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
-    Pose poses[];
-};
 layout(std430, set = 0, binding = 3) buffer InstanceTable {
     uint instances[];  // all bodies grouped by shape, then the visible ones grouped by run
 };

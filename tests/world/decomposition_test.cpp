@@ -4,9 +4,9 @@
 #include <cstring>
 #include <numbers>
 
-#include "compute/scene/decomposed.h"
-#include "compute/scene/decomposition_cache.h"
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/decomposed.h"
+#include "compute/scene/meshes/decomposition_cache.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "host/system/machine.h"

@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "compute/scene/compound.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"

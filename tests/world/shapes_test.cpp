@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/voronoi.h"
 
 namespace {

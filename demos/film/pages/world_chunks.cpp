@@ -7,7 +7,7 @@
 #include <tuple>
 #include <variant>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/tables/state.h"
 #include "host/canvas/colors.h"

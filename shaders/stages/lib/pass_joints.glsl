@@ -409,7 +409,6 @@ void set_up_column(uint j, uint k) {
     to.inverse_mass_b = mass_b.inverse_mass;
     to.split_a = mass_a.split;
     to.split_b = mass_b.split;
-    to.pad0 = to.pad1 = 0.0f;
     float compliance = given_impulses[6u * j + k];
     uint slots_end = links_of(j) + 1u;
     for (uint slot = 0u; slot < slots_end; ++slot) {
