@@ -122,8 +122,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.strains[i] = start_strain_of(scene.bodies[i], properties[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
-    for (std::size_t j = 0; j < scene.joints.size(); ++j)
-        start_joint(state_, state_.joints[state_.joint_records[j]], scene.joints[j].angle);
+    start_joints(state_, scene, 0, scene.joints.size());
     state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }

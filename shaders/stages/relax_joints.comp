@@ -4,6 +4,7 @@
 // variants: relax_joints
 // variants: relax_joints.small -DSCREE_SMALL_BLOCKS
 // variants: relax_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
+// variants: relax_joints.coupled -DSCREE_COUPLED
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -119,6 +120,10 @@ void end_pass() {
         if (holds(j)) commit(j, warms);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    if (leads()) commit_couplings(warms, true);
+    end_part();
+#endif
     push_bodies(FROM_REST);
     end_part();
     FOR_LANES(j, block_joints) {
@@ -127,6 +132,12 @@ void end_pass() {
         if (struck) tear(j);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    FOR_LANES(j, first_coupling())
+    given_impulses[6u * j] = with_couplings(given_impulses[6u * j], block_first_joint + j, block_first_joint + first_coupling(),
+                                            block_first_joint + block_joints);
+    end_part();
+#endif
     note_pressing(struck);
     write_deltas(1.0f, true);
     if (!is_last_substep()) return;

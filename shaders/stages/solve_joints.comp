@@ -2,6 +2,7 @@
 // variants: solve_joints
 // variants: solve_joints.small -DSCREE_SMALL_BLOCKS
 // variants: solve_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
+// variants: solve_joints.coupled -DSCREE_COUPLED
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,6 +18,10 @@ void end_pass() {
         if (holds(j)) commit(j, false);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    if (leads()) commit_couplings(false, false);
+    end_part();
+#endif
     push_bodies(FROM_REST);
     write_deltas(0.0f, false);
 }

@@ -4,7 +4,8 @@
 // the rows that its elimination changes; each entry is changed by the pivots in the same order as on the CPU. Compiled
 // for blocks of every size, whose equations are in memory, for small ones (SCREE_SMALL_BLOCKS), whose equations are
 // shared by the workgroup, and for small ones with a thread a block (SCREE_SINGLY), for software devices, whose threads
-// are lanes of a vector: there an array of a thread's own costs least.
+// are lanes of a vector: there an array of a thread's own costs least. Blocks with couplings have a shader of their own, whatever
+// their size (SCREE_COUPLED).
 //
 // lavapipe silently ends a shader's loops after 65,535 rounds in all: rounds of a block that would exceed it go to
 // further dispatches (compute/plan/stage_fusion.h, which knows how many rounds each loop here takes). Loops are not
@@ -22,12 +23,17 @@
 
 // after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
+#ifdef SCREE_COUPLED
+#include "shaders/stages/lib/couplings.glsl"
+#endif
 
 layout(constant_id = 2) const bool ONE_SUBGROUP = false;
 
 #ifdef SCREE_SMALL_BLOCKS
 const uint JOINT_ROOM = SMALL_BLOCK_JOINTS, BODY_ROOM = 2u * SMALL_BLOCK_JOINTS, MASK_WORDS = 1u;
 const uint TILE_ROOM = 63u;  // of 11 joints: one of its own and MAX_FILL_IN, as far as joints follow
+#elif defined(SCREE_COUPLED)
+const uint JOINT_ROOM = MAX_COUPLED_BLOCK, BODY_ROOM = 2u * MAX_COUPLED_BLOCK, MASK_WORDS = MAX_COUPLED_BLOCK >> 5;
 #else
 const uint JOINT_ROOM = MAX_BLOCK_JOINTS, BODY_ROOM = 2u * MAX_BLOCK_JOINTS, MASK_WORDS = MAX_BLOCK_JOINTS >> 5;
 #endif
@@ -530,8 +536,15 @@ void substitute(uint j) {
     pushing[j] = own_axes;
 }
 
+#ifdef SCREE_COUPLED
+#include "shaders/stages/lib/pass_couplings.glsl"
+#endif
+
 void solve_equations() {
     FOR_LANES(j, block_joints) set_up_sides(j);
+#ifdef SCREE_COUPLED
+    FOR_LANES(i, block_joints - first_coupling()) set_up_coupling(first_coupling() + i);
+#endif
     end_part();
     FOR_LANES(t, 6u * block_joints) {
         uint j = sixth_of(t), k = t - 6u * j;
@@ -539,8 +552,15 @@ void solve_equations() {
     }
     end_part();
     for (uint j = 0u; j < block_joints; ++j) eliminate(j);
-    if (leads())
+#ifdef SCREE_COUPLED
+    solve_border();
+#endif
+    if (leads()) {
         for (uint j = block_joints; j-- > 0u;) substitute(j);
+#ifdef SCREE_COUPLED
+        add_coupled_solutions();
+#endif
+    }
 }
 
 // Updates the active set after a solution; true if it changed.
@@ -591,8 +611,18 @@ void solve_block() {
         end_part();
         FOR_LANES(j, block_joints) {
             JOINT(j).solved_axes = 0u;
+#ifdef SCREE_COUPLED
+            if (j >= first_coupling()) continue;
+#endif
             if (holds(j)) place_rows(j);
         }
+#ifdef SCREE_COUPLED
+        end_part();
+        FOR_LANES(i, block_joints - first_coupling()) {
+            uint coupling = block_first_joint + first_coupling() + i;
+            if (is_whole(coupling)) place_coupling(coupling);
+        }
+#endif
         if (leads()) unsettled = 1u;
     } else if (leads()) {
         unsettled = joint_blocks.at[block].unsettled;
@@ -604,6 +634,10 @@ void solve_block() {
             if (holds(j)) choose_unknowns(j);
         }
         end_part();
+#ifdef SCREE_COUPLED
+        if (leads()) choose_coupled_unknowns();
+        end_part();
+#endif
         push_bodies(FROM_BEFORE);
         end_part();
         solve_equations();
@@ -613,9 +647,16 @@ void solve_block() {
         end_part();
         FOR_LANES(j, block_joints) {
             if (!holds(j)) continue;
+#ifdef SCREE_COUPLED
+            if (j >= first_coupling()) continue;
+#endif
             JOINT(j).solved_axes = unknowns[j];
             if (look_at_bounds(j, round >= SETTLING_ROUND)) JOIN(unsettled, 1u);
         }
+#ifdef SCREE_COUPLED
+        FOR_LANES(i, block_joints - first_coupling())
+        if (look_at_coupling(first_coupling() + i, round >= SETTLING_ROUND)) JOIN(unsettled, 1u);
+#endif
         end_part();
     }
     if (leads()) joint_blocks.at[block].unsettled = unsettled;
@@ -656,12 +697,14 @@ void write_deltas(float weight, bool with_normal_impulse) {
     }
 }
 
-// Whether a block is of the size that this shader is for.
+// Whether a block is of the kind that this shader is for.
 bool is_ours(uint index) {
-#ifdef SCREE_SMALL_BLOCKS
-    return joint_blocks.at[index].joints <= SMALL_BLOCK_JOINTS;
+#ifdef SCREE_COUPLED
+    return joint_blocks.at[index].couplings != 0u;
+#elif defined(SCREE_SMALL_BLOCKS)
+    return joint_blocks.at[index].joints <= SMALL_BLOCK_JOINTS && joint_blocks.at[index].couplings == 0u;
 #else
-    return joint_blocks.at[index].joints > SMALL_BLOCK_JOINTS;
+    return joint_blocks.at[index].joints > SMALL_BLOCK_JOINTS && joint_blocks.at[index].couplings == 0u;
 #endif
 }
 

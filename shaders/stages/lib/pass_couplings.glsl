@@ -1,0 +1,276 @@
+// The couplings in a pass over a block of joints: the border of its equations. One thread does what depends on the order of the
+// couplings.
+#ifndef SCREE_STAGES_PASS_COUPLINGS_GLSL
+#define SCREE_STAGES_PASS_COUPLINGS_GLSL
+
+// A coupling g is a joint of the block, from `first_coupling()` up to block_joints.
+shared uint is_unknown[MAX_COUPLED_BLOCK];  // of the equations of this round, by joint of the block
+
+uint first_coupling() {
+    return block_joints - joint_blocks.at[block].couplings;
+}
+bool coupling_acts(uint g) {
+    return is_whole(block_first_joint + g) && row_acts(coupling_axis(block_first_joint + g), JOINT(g).rows[0]);
+}
+uint joint_in_block(uint term) {
+    return joint_of_term(term) - block_first_joint;
+}
+
+// The entry of its equation with row `at` of the block: 6 joint + axis.
+float column_of(uint g, uint at) {
+    if (at < COLUMN_IN_TILES) return joint_equations.at[block_first_joint + g].tiles[at];
+    return joint_equations.at[block_first_joint + g].rows[at - COLUMN_IN_TILES];
+}
+void put_column(uint g, uint at, float entry) {
+    if (at < COLUMN_IN_TILES)
+        joint_equations.at[block_first_joint + g].tiles[at] = entry;
+    else
+        joint_equations.at[block_first_joint + g].rows[at - COLUMN_IN_TILES] = entry;
+}
+
+float speed_of_row(uint joint, uint k) {
+    uint j = joint - block_first_joint;
+    return speed_of(j, k, couple_of(j));
+}
+
+// ---- impulses
+// Adds that of a coupling to those of its joints' rows, which are to be applied.
+void add_to_terms(uint g, float impulse) {
+    if (impulse == 0.0f) return;
+    uint coupling = block_first_joint + g, count = terms_of(coupling);
+    for (uint t = 0u; t < count; ++t) {
+        uint j = joint_in_block(term_of(coupling, t)), k = axis_of_term(term_of(coupling, t));
+        float before = 0.0f;
+        if (has(pushing[j], k)) before = given_impulses[6u * j + k];
+        given_impulses[6u * j + k] = with_part(before, factor_of(coupling, t), impulse);
+        pushing[j] |= 1u << k;
+    }
+}
+
+// ---- a round
+float speed_of_coupling(uint g, bool before) {
+    uint coupling = block_first_joint + g, count = terms_of(coupling);
+    float sum = 0.0f;
+    for (uint t = 0u; t < count; ++t) {
+        uint j = joint_in_block(term_of(coupling, t)), k = axis_of_term(term_of(coupling, t));
+        VelocityPair v;
+        if (before) {
+            v.a = velocity_at_first(JOINT(j).a);
+            v.b = velocity_at_first(JOINT(j).b);
+        } else {
+            v = couple_of(j);
+        }
+        sum = with_part(sum, factor_of(coupling, t), speed_of(j, k, v));
+    }
+    return sum;
+}
+
+// Chooses the couplings that are unknowns; the impulses of the others are given. Of one thread, after choose_unknowns().
+void choose_coupled_unknowns() {
+    for (uint g = first_coupling(); g < block_joints; ++g) {
+        is_unknown[g] = 0u;
+        if (!coupling_acts(g)) continue;
+        JointAxis axis = coupling_axis(block_first_joint + g);
+        uint active_flags = active_set_of(JOINT(g).active_set, 0u);
+        JointRow row = row_of(g, 0u);
+        if (row_is_unknown(axis, row, active_flags, BIASED, PARAMETERS)) is_unknown[g] = 1u;
+        row = row_given(axis, row, active_flags, speed_of_coupling(g, true), BIASED, PARAMETERS);
+        put_changes(g, 0u, row);
+        add_to_terms(g, given_push(axis, row));
+    }
+}
+// The right-hand side and the compliance.
+void set_up_coupling(uint g) {
+    if (is_unknown[g] == 0u) return;
+    uint coupling = block_first_joint + g;
+    RowTarget demand =
+        row_demand(coupling_axis(coupling), row_with_changes(g, 0u), no_rotor(), axis_of_term(term_of(coupling, 0u)),
+                   active_set_of(JOINT(g).active_set, 0u), BIASED, PARAMETERS);
+    solutions[6u * g] = right_hand_side(speed_of_coupling(g, false), demand.bias);
+    given_impulses[6u * g] = demand.compliance;
+}
+// Updates the active set after a solution; true if it changed.
+bool look_at_coupling(uint g, bool settling) {
+    if (!coupling_acts(g)) return false;
+    uint coupling = block_first_joint + g, before = JOINT(g).active_set;
+    bool solved = is_unknown[g] != 0u;
+    float solution = 0.0f;
+    if (solved) solution = solutions[6u * g];
+    RowAfter after =
+        row_after_round(coupling_axis(coupling), row_with_changes(g, 0u), no_rotor(), axis_of_term(term_of(coupling, 0u)),
+                        active_set_of(before, 0u), solved, solution, speed_of_coupling(g, false), BIASED, settling, PARAMETERS);
+    put_changes(g, 0u, after.row);
+    uint active_set = with_active_set(before, 0u, after.active_flags);
+    JOINT(g).active_set = active_set;
+    return active_set != before;
+}
+
+// ---- equations
+// Of row k of a joint and that of a coupling.
+float coupled_entry(uint j, uint k, uint g) {
+    uint coupling = block_first_joint + g, count = terms_of(coupling);
+    float sum = 0.0f;
+    for (uint t = 0u; t < count; ++t) {
+        uint i = joint_in_block(term_of(coupling, t)), axis = axis_of_term(term_of(coupling, t));
+        int ends = shared_ends(side_a(j), side_b(j), side_a(i), side_b(i));
+        if (ends == 0) continue;
+        Mass mass_a = mass_of_side(side_a(i)), mass_b = mass_of_side(side_b(i));
+        RowResponse to;
+        to.direction = row_vector(i, axis, DIRECTION);
+        to.axis = axis;
+        to.turn_a = row_vector(i, axis, TURN_A);
+        to.inverse_mass_a = mass_a.inverse_mass;
+        to.turn_b = row_vector(i, axis, TURN_B);
+        to.inverse_mass_b = mass_b.inverse_mass;
+        to.split_a = mass_a.split;
+        to.split_b = mass_b.split;
+        to.pad0 = to.pad1 = 0.0f;
+        float entry =
+            row_entry(row_vector(j, k, DIRECTION), row_vector(j, k, ANGULAR_A), row_vector(j, k, ANGULAR_B), k, to, ends);
+        sum = with_entry(sum, factor_of(coupling, t), entry);
+    }
+    return sum;
+}
+float entry_between(uint g, uint other) {
+    uint coupling = block_first_joint + g, count = terms_of(coupling);
+    float sum = 0.0f;
+    for (uint t = 0u; t < count; ++t)
+        sum = with_entry(sum, factor_of(coupling, t),
+                         coupled_entry(joint_in_block(term_of(coupling, t)), axis_of_term(term_of(coupling, t)), other));
+    return sum;
+}
+
+// Forward elimination of a coupling's column by the joints' factors.
+void eliminate_column(uint g) {
+    uint inner = first_coupling();
+    for (uint j = 0u; j < inner; ++j) {
+        uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
+        for (uint k = 0u; k < 6u; ++k) {
+            if (!has(own_axes, k)) continue;
+            float entry = column_of(g, 6u * j + k), inverse = pivots[6u * j + k];
+            if (entry == 0.0f) continue;
+            for (uint n = k + 1u; n < 6u; ++n)
+                if (has(own_axes, n))
+                    put_column(
+                        g, 6u * j + n,
+                        less_multiple(column_of(g, 6u * j + n), multiplier_of(TILE(j, own_at + 6u * n + k), inverse), entry));
+            for (uint l = 0u; l < count; ++l) {
+                uint i = link_of(j, l), at = tile_at(j, 1u + l);
+                for (uint n = 0u; n < 6u; ++n)
+                    if (has(unknowns[i], n))
+                        put_column(
+                            g, 6u * i + n,
+                            less_multiple(column_of(g, 6u * i + n), multiplier_of(TILE(j, at + 6u * n + k), inverse), entry));
+            }
+        }
+    }
+}
+// The entry with an earlier coupling, or its own, without what the rows of joints change.
+float eliminated_by_joints(uint g, float entry, uint with) {
+    uint inner = first_coupling();
+    for (uint j = 0u; j < inner; ++j)
+        for (uint k = 0u; k < 6u; ++k) {
+            if (!has(unknowns[j], k)) continue;
+            float own = column_of(g, 6u * j + k), other = column_of(with, 6u * j + k);
+            if (own != 0.0f && other != 0.0f) entry = less_multiple(entry, multiplier_of(other, pivots[6u * j + k]), own);
+        }
+    return entry;
+}
+// And without what the couplings before that one change.
+float eliminated_by_couplings(uint g, uint with) {
+    float entry = column_of(g, 6u * with);
+    for (uint e = first_coupling(); e < with; ++e)
+        if (is_unknown[e] != 0u)
+            entry = less_multiple(entry, multiplier_of(column_of(with, 6u * e), pivots[6u * e]), column_of(g, 6u * e));
+    return entry;
+}
+void eliminate_coupling(uint g) {
+    uint inner = first_coupling();
+    for (uint e = inner; e < g; ++e)
+        if (is_unknown[e] != 0u) put_column(g, 6u * e, eliminated_by_couplings(g, e));
+    pivots[6u * g] = reciprocal(eliminated_by_couplings(g, g));
+    float sum = solutions[6u * g];
+    for (uint j = 0u; j < inner; ++j)
+        for (uint k = 0u; k < 6u; ++k) {
+            if (!has(unknowns[j], k)) continue;
+            float own = column_of(g, 6u * j + k);
+            if (own != 0.0f) sum = less_multiple(sum, multiplier_of(own, pivots[6u * j + k]), solutions[6u * j + k]);
+        }
+    for (uint e = inner; e < g; ++e)
+        if (is_unknown[e] != 0u) sum = less_multiple(sum, multiplier_of(column_of(g, 6u * e), pivots[6u * e]), solutions[6u * e]);
+    solutions[6u * g] = sum;
+}
+// Substitution, and what is left to a row of the joints.
+void substitute_couplings() {
+    for (uint g = block_joints; g-- > first_coupling();) {
+        if (is_unknown[g] == 0u) continue;
+        float sum = solutions[6u * g];
+        for (uint later = g + 1u; later < block_joints; ++later)
+            if (is_unknown[later] != 0u) sum = less_multiple(sum, column_of(later, 6u * g), solutions[6u * later]);
+        solutions[6u * g] = substituted(sum, pivots[6u * g]);
+    }
+}
+void lessen_row(uint at) {
+    for (uint g = first_coupling(); g < block_joints; ++g) {
+        if (is_unknown[g] == 0u) continue;
+        float entry = column_of(g, at);
+        if (entry != 0.0f) solutions[at] = less_multiple(solutions[at], entry, solutions[6u * g]);
+    }
+}
+
+// Between elimination and substitution of the joints.
+void solve_border() {
+    uint inner = first_coupling(), rows = 6u * inner, all = block_joints - inner;
+    FOR_LANES(i, rows * all) {
+        uint g = inner + i / rows, at = i % rows, j = sixth_of(at), k = at - 6u * j;
+        if (is_unknown[g] != 0u && has(unknowns[j], k)) put_column(g, at, coupled_entry(j, k, g));
+    }
+    end_part();
+    FOR_LANES(i, all) if (is_unknown[inner + i] != 0u) eliminate_column(inner + i);
+    end_part();
+    for (uint g = inner; g < block_joints; ++g) FOR_LANES(i, g + 1u - inner) {
+            uint e = inner + i;
+            if (is_unknown[g] == 0u || is_unknown[e] == 0u) continue;
+            float entry = entry_between(e, g);
+            if (e == g) entry = softened(entry, given_impulses[6u * g]);
+            put_column(g, 6u * e, eliminated_by_joints(g, entry, e));
+        }
+    end_part();
+    if (leads()) {
+        for (uint g = inner; g < block_joints; ++g)
+            if (is_unknown[g] != 0u) eliminate_coupling(g);
+        substitute_couplings();
+    }
+    end_part();
+    FOR_LANES(at, rows) {
+        uint j = sixth_of(at);
+        if (has(unknowns[j], at - 6u * j)) lessen_row(at);
+    }
+    end_part();
+}
+// After the substitution of the joints, by the same thread.
+void add_coupled_solutions() {
+    for (uint g = first_coupling(); g < block_joints; ++g)
+        if (is_unknown[g] != 0u) add_to_terms(g, solutions[6u * g]);
+}
+
+// ---- a pass ends
+// Of one thread, after commit() of the joints: adds the impulses to theirs, and commits them.
+void commit_couplings(bool warms, bool with_load) {
+    for (uint g = first_coupling(); g < block_joints; ++g) {
+        if (!is_whole(block_first_joint + g)) continue;
+        JointRow row = row_with_changes(g, 0u);
+        if (row_acts(coupling_axis(block_first_joint + g), row)) add_to_terms(g, handed_impulse(row, no_rotor(), warms));
+        row = committed(row);
+        JOINT(g).rows[0].motor_impulse = row.motor_impulse;
+        JOINT(g).rows[0].limit_impulse = row.limit_impulse;
+        if (!with_load) continue;
+        float load = row_impulse(row, no_rotor());
+        if (is_linear(axis_of_term(term_of(block_first_joint + g, 0u))))
+            JOINT(g).force.x = JOINT(g).force.x + load;
+        else
+            JOINT(g).torque.x = JOINT(g).torque.x + load;
+    }
+}
+
+#endif
