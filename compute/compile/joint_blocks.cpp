@@ -213,6 +213,7 @@ void take_terms(const Scene& scene, const Coupling& coupling, const physics::Joi
                 physics::Joint& record) {
     const bool curved = !coupling.curve.empty();
     const std::size_t count = std::min(coupling.joints.size(), curved ? std::size_t{4} : most_coupled_axes);
+    record.frame_a = record.frame_b = vec4(0);
     for (std::size_t t = 0; t < count; ++t) {
         const CoupledAxis& term = coupling.joints[t];
         const std::uint32_t of = tables.record_of[term.joint];

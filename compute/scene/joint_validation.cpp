@@ -69,6 +69,8 @@ void examine_coupling(const Examination& joint, Joint& j, Coupling& coupling, co
         joint.refuse(j.a != the_world ? "/a" : "/b", "a coupling joins joints, not bodies; leave a and b out");
     schema::check_fields(joint, j, Rules());
     const std::string place = "/kind/coupling";
+    if (j.anchor_a != vec3(0) || j.anchor_b != vec3(0))
+        joint.refuse("", "a coupling is at no place; leave out its anchors and its axis");
     if (coupling.joints.size() > most_coupled_axes || (!coupling.curve.empty() && coupling.joints.size() > 4))
         joint.refuse(place + "/joints", "must be at most " + std::string(coupling.curve.empty() ? "8" : "4, beside a curve,") +
                                             " joints, not " + std::to_string(coupling.joints.size()));

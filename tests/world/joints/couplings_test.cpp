@@ -226,8 +226,15 @@ TEST_CASE("a follower is where its curve says, and goes as fast as the slope say
         CHECK(way(world, x) == Approx(static_cast<double>(target)).margin(1e-3));
         CHECK(std::abs(way(world, y) - curve(way(world, x))) < 1e-5);
     }
+    std::get<Coupling>(scene.joints[2].kind).curve = {-2};
+    World linear(scene, awake);
+    linear.set_spring(x, JointAxis::x, {20, 12, 0.5f});
+    linear.step(600);
+    CHECK(way(linear, y) == Approx(2 * way(linear, x)).margin(1e-5));
+    CHECK(way(linear, x) == Approx(0.5).margin(1e-3));
     // A curve does no work: what slides on it keeps its energy.
     Scene free = scene;
+    std::get<Coupling>(free.joints[2].kind).curve = {-0.5f, -1, 0.25f, 0.125f};
     free.bodies[0].velocity = {1, 0, 0};
     free.bodies[1].velocity = {0.5f, 0, 0};
     World sliding(free, awake);
@@ -402,6 +409,7 @@ TEST_CASE("what cannot be coupled is refused by name") {
     says(gear + R"({"joints": [{"joint": "a"}], "armature": 1}}})", "turns no rotor");
     says(gear + R"({"joints": [{"joint": "a"}], "limits": {"lower": 1, "upper": 0}}}})", "reversed");
     says(gear + R"({"joints": [{"joint": "a"}]}}, "b": 0})", "a coupling joins joints, not bodies");
+    says(gear + R"({"joints": [{"joint": "a"}]}}, "anchor": [1, 0, 0]})", "a coupling is at no place");
     Scene train = weightless();
     for (int i = 0; i < 40; ++i) add_wheel(train, static_cast<float>(i), 1);
     for (std::size_t i = 0; i + 1 < 40; ++i) couple(train, {.joints = {{i, 1}, {i + 1, 1}}});
