@@ -111,18 +111,36 @@ struct Part {  // of a compound. Only solid parts have mass
     std::optional<Filter> filter{};      // none: the body's own
     Role role = Role::solid;             // of a body that is not solid itself: the body's
     std::optional<Material> material{};  // none: the body's own
+    bool skinned = false;                // pictures show the compound's skins in its place
 };
-struct Compound {             // several convex shapes on one rigid body
-    std::vector<Part> parts;  // no planes; none: a body without a shape. The masses of overlapping parts add up
+struct Mesh;
+struct Skin {                            // what pictures show, and nothing collides with
+    std::shared_ptr<const Mesh> mesh{};  // shared by equal bodies
+    vec3 position{0};                    // of the mesh's origin in the body frame, m
+    vec4 orientation{0, 0, 0, 1};        // quaternion x, y, z, w; normalised when the scene is checked
+};
+struct Compound {               // several convex shapes on one rigid body
+    std::vector<Part> parts;    // no planes; none: a body without a shape. The masses of overlapping parts add up
+    std::vector<Skin> skins{};  // drawn in place of the parts that are skinned
 };
 struct MeshForm;  // compute/scene/mesh.h
-// A triangle mesh, one-sided: solid behind its faces; for fixed and kinematic bodies. Bodies from behind pass through.
+// How a mesh becomes convex parts (compute/scene/decomposition.h).
+struct Decomposition {
+    float error = 0.02f;          // greatest distance between the surfaces, in longest extents of the mesh, 0.002 to 0.5
+    std::uint32_t parts = 32;     // at most, 1 to 256; fewer have a greater error
+    std::uint32_t vertices = 64;  // of a part, at most, 8 to 64
+    bool operator==(const Decomposition& o) const { return error == o.error && parts == o.parts && vertices == o.vertices; }
+};
+// A triangle mesh. On a fixed or kinematic body a surface, solid behind its faces; bodies from behind pass through. On a
+// dynamic body, and with `decompose` on any, a solid: when the scene is checked it becomes a compound of convex parts with
+// the mass, centre and inertia of the mesh, whose skin is the mesh.
 struct Mesh {
     std::vector<vec3> vertices;              // m, in the body's frame
     std::vector<glm::uvec3> triangles;       // vertex indices, counter-clockwise seen from outside
     std::string file{};                      // the mesh file, for scene files; may be empty
     float scale = 1;                         // scale of the file; applied to `vertices` already
     std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
+    std::optional<Decomposition> decompose{};
 };
 // Terrain over a grid, solid below; for fixed and kinematic bodies. The grid is centred on the body's origin.
 struct HeightField {

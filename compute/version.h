@@ -2,13 +2,13 @@
 //
 // While the first number is 0 the second rises when programs written for the headers before may no longer compile or behave
 // otherwise, the third when declarations were added alone. The library is static and C++: program and library are to have the
-// same version, which find_package(scree 0.12) checks, and is_library_of_headers() at run time.
+// same version, which find_package(scree 0.13) checks, and is_library_of_headers() at run time.
 #pragma once
 
 #include <string>
 
 #define SCREE_VERSION_MAJOR 0
-#define SCREE_VERSION_MINOR 12
+#define SCREE_VERSION_MINOR 13
 #define SCREE_VERSION_PATCH 0
 
 namespace scree {
@@ -16,7 +16,7 @@ namespace scree {
 // Of the headers.
 constexpr int version_major = SCREE_VERSION_MAJOR, version_minor = SCREE_VERSION_MINOR, version_patch = SCREE_VERSION_PATCH;
 
-std::string library_version();  // of the compiled library, "0.12.0"
+std::string library_version();  // of the compiled library, "0.13.0"
 
 // Whether the headers of the caller and the library that it is linked with are of one version.
 inline bool is_library_of_headers() {

@@ -26,6 +26,15 @@ double reach_of(const Compound& compound) {
 
 }  // namespace
 
+void move_skins(Compound& compound, const dvec3& centre, const dquat& back) {
+    for (Skin& skin : compound.skins) {
+        skin.position = vec3(back * (dvec3(skin.position) - centre));
+        const dquat turn = glm::normalize(
+            back * glm::normalize(dquat(skin.orientation.w, skin.orientation.x, skin.orientation.y, skin.orientation.z)));
+        skin.orientation = vec4(glm::dvec4(turn.x, turn.y, turn.z, turn.w));
+    }
+}
+
 WholeMass mass_of(const Compound& compound, float density) {
     WholeMass whole;
     std::vector<MassProperties> parts;
@@ -65,6 +74,7 @@ Recentred bring_to_centre(Compound& compound, float density) {
         const dquat turn = glm::normalize(back * turn_of(part));
         if (axes != dmat3(1)) part.orientation = vec4(glm::dvec4(turn.x, turn.y, turn.z, turn.w));
     }
+    move_skins(compound, whole.centre, back);
     return before;
 }
 

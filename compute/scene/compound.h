@@ -24,4 +24,7 @@ struct Recentred {
 };
 Recentred bring_to_centre(Compound& compound, float density);
 
+// Into a frame about `centre`; `back`: from the axes of the old frame to those of the new one.
+void move_skins(Compound& compound, const glm::dvec3& centre, const glm::dquat& back);
+
 }  // namespace scree

@@ -22,6 +22,7 @@ void move_shape(Shape& shape, dvec3 centre, dquat axes) {
         part.position = vec3(back * (dvec3(part.position) - centre));
         part.orientation = single_quaternion(glm::normalize(back * glm::normalize(double_quaternion(part.orientation))));
     }
+    move_skins(std::get<Compound>(shape), centre, back);
 }
 
 void require_possible(const Examination& at, const Body& b) {

@@ -145,7 +145,7 @@ vec3 limit_of(dvec3 own, dvec3 outward, const dvec3* neighbours) {
 
 }  // namespace
 
-MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given) {
+std::vector<uvec3> welded_triangles(std::span<const vec3> vertices, std::span<const uvec3> given) {
     if (given.empty()) throw MeshError("/triangles", "there are none");
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
@@ -156,15 +156,19 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
                 throw MeshError("/triangles/" + std::to_string(i), "vertex " + std::to_string(given[i][k]) + " of " +
                                                                        std::to_string(vertices.size()) + " (they count from 0)");
     const std::vector<std::uint32_t> first = welded(vertices);
-    MeshForm form;
-    std::vector<uvec3> triangles;
-    std::vector<uvec3> all;
+    std::vector<uvec3> triangles, all;
     for (const uvec3& t : given) all.push_back(rotated_to_least({first[t[0]], first[t[1]], first[t[2]]}));
     const std::vector<bool> is_first = first_of_equal(all);
     for (std::size_t i = 0; i < all.size(); ++i)
         if (is_first[i] && has_area(vertices, all[i])) triangles.push_back(all[i]);
-    form.dropped = given.size() - triangles.size();
     if (triangles.empty()) throw MeshError("/triangles", "all of them are degenerate");
+    return triangles;
+}
+
+MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given) {
+    MeshForm form;
+    const std::vector<uvec3> triangles = welded_triangles(vertices, given);
+    form.dropped = given.size() - triangles.size();
 
     const Edges edges = edges_of(triangles);
     form.open = edges.open;

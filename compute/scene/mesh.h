@@ -48,6 +48,8 @@ struct MeshError : std::runtime_error {
 // triangles are dropped.
 MeshForm mesh_form(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles);
 MeshForm mesh_form(const HeightField& field);
+// The triangles that mesh_form() keeps, with the first of the vertices at each place. Throws MeshError for what has none.
+std::vector<glm::uvec3> welded_triangles(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles);
 
 // Of a checked mesh or height field; null for other shapes.
 const MeshForm* mesh_form_of(const Shape& shape);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "compute/scene/decomposed.h"
 #include "compute/scene/mesh.h"
 #include "compute/scene/portable_math.h"
 #include "compute/schema/body.h"
@@ -64,9 +65,17 @@ void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes
     orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
 }
 
+// Whether a hull is as an earlier check has made it: it keeps its form, which bodies share.
+bool is_made(const Hull& hull) {
+    if (!hull.form || hull.points.size() != hull.form->vertices.size()) return false;
+    return std::ranges::equal(hull.points, hull.form->vertices,
+                              [](vec3 point, const dvec3& vertex) { return point == vec3(vertex); });
+}
+
 // `position` and `orientation`: of the body, or of the part.
 Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, CheckedShapes& shapes,
                  std::vector<std::string>* notes) {
+    if (is_made(hull)) return {};
     try {
         const CheckedShapes::MadeHull& made = shapes.hull_of(hull.points);
         if (made.simplified && notes) {
@@ -78,6 +87,18 @@ Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hul
         return Recentred{made.centre, made.axes};
     } catch (const HullError& error) {
         body.refuse("/shape/hull/points", error.what());
+    }
+}
+
+void check_skin(const Examination& at, Skin& skin, CheckedShapes& shapes) {
+    if (!skin.mesh) at.refuse("", "has no mesh");
+    at.between("/position", skin.position, within_shape_range.least, within_shape_range.most, " m");
+    at.make_unit("/orientation", skin.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
+    if (!within(skin.mesh->vertices, within_shape_range)) at.refuse("/vertices", "must be within 100000 m");
+    try {
+        skin.mesh = shapes.skin(skin.mesh);
+    } catch (const MeshError& error) {
+        at.refuse(error.place, error.what());
     }
 }
 
@@ -102,6 +123,8 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
         if (p.material) schema::check_fields(part / "material", *p.material);
         if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, shapes, notes);
     }
+    for (std::size_t i = 0; i < compound.skins.size(); ++i)
+        check_skin(body.part("/shape/compound/skins/" + std::to_string(i)), compound.skins[i], shapes);
     if (compound.parts.empty() || b.inertial) return {};
     const Recentred before = bring_to_centre(compound, b.density);
     if (before.centre == dvec3(0) && before.axes == glm::dquat(1, 0, 0, 0)) return {};
@@ -109,19 +132,22 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
     return before;
 }
 
+void require_read(const Examination& body, Mesh& mesh) {
+    if (mesh.triangles.empty() && !mesh.file.empty()) body.refuse("/shape/mesh/file", "\"" + mesh.file + "\" has not been read");
+    check_fields(body, mesh);
+}
+
 void check_mesh(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
     auto* mesh = std::get_if<Mesh>(&b.shape);
     auto* field = std::get_if<HeightField>(&b.shape);
     if (b.motion == Motion::dynamic)
-        body.refuse("/motion",
-                    std::string("a ") + (mesh ? "mesh" : "height field") +
-                        " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
+        body.refuse(
+            "/motion",
+            "a height field must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
     const std::string key = mesh ? "/shape/mesh" : "/shape/height_field";
     try {
         if (mesh) {
-            if (mesh->triangles.empty() && !mesh->file.empty())
-                body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
-            check_fields(body, *mesh);
+            require_read(body, *mesh);
             shapes.form(*mesh);
         } else {
             if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
@@ -175,12 +201,23 @@ const CheckedShapes::MadeHull& CheckedShapes::hull_of(const std::vector<vec3>& p
     return one;
 }
 
+static bool same_surface(const Mesh& a, const Mesh& b) {
+    return a.vertices.size() == b.vertices.size() &&
+           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(vec3)) == 0 && a.triangles == b.triangles;
+}
+
+std::shared_ptr<const Mesh> CheckedShapes::skin(const std::shared_ptr<const Mesh>& mesh) {
+    const auto equal =
+        std::ranges::find_if(skins, [&](const auto& other) { return other == mesh || same_surface(*other, *mesh); });
+    if (equal != skins.end()) return *equal;
+    if (mesh->form) return skins.emplace_back(mesh);
+    auto made = std::make_shared<Mesh>(*mesh);
+    made->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
+    return skins.emplace_back(std::move(made));
+}
+
 void CheckedShapes::form(Mesh& mesh) {
-    const auto equal = std::ranges::find_if(meshes, [&](const Mesh* other) {
-        return other->vertices.size() == mesh.vertices.size() &&
-               std::memcmp(other->vertices.data(), mesh.vertices.data(), mesh.vertices.size() * sizeof(vec3)) == 0 &&
-               other->triangles == mesh.triangles;
-    });
+    const auto equal = std::ranges::find_if(meshes, [&](const Mesh* other) { return same_surface(*other, mesh); });
     if (equal != meshes.end()) {
         mesh.form = (*equal)->form;
         return;
@@ -201,6 +238,10 @@ void check_shape(const Examination& body, Shape& shape, Motion motion) {
 }
 
 Shift bring_to_centre(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
+    if (auto* mesh = std::get_if<Mesh>(&b.shape); mesh && (mesh->decompose || b.motion == Motion::dynamic)) {
+        require_read(body, *mesh);
+        decompose_mesh(body, b, shapes, notes);
+    }
     if (auto* hull = std::get_if<Hull>(&b.shape)) return check_hull(body, b.position, b.orientation, *hull, shapes, notes);
     if (auto* compound = std::get_if<Compound>(&b.shape)) return check_compound(body, b, *compound, shapes, notes);
     if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) check_mesh(body, b, shapes, notes);

@@ -3,6 +3,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "compute/scene/validator.h"
 
 namespace scree {
+
+struct ConvexParts;
 
 // Cache of the shapes of a scene that many bodies have: hulls by their points, and meshes.
 struct CheckedShapes {
@@ -23,6 +26,11 @@ struct CheckedShapes {
     };
     std::map<std::vector<float>, MadeHull> hulls;
     const MadeHull& hull_of(const std::vector<vec3>& points);
+
+    std::vector<std::shared_ptr<const Mesh>> skins;  // with their forms
+    // The same mesh with its form, or an equal one that has been here before. Throws MeshError.
+    std::shared_ptr<const Mesh> skin(const std::shared_ptr<const Mesh>& mesh);
+    std::vector<std::shared_ptr<const ConvexParts>> decomposed;  // of meshes of bodies checked before
 
     std::vector<const Mesh*> meshes;  // of bodies checked before, one of each kind, with its form
     // Gives the mesh the form of an equal one, else makes it. Throws MeshError. The mesh stays where it is.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compute/scene_file/events_fields.h"
+#include "compute/scene_file/measures_fields.h"
 #include "compute/scene_file/picture_style_fields.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/schema/field.h"
@@ -36,12 +37,20 @@ inline constexpr auto table<Viewpoint> = table_of(
     field("fit", &Viewpoint::fit, "As near as sees the whole scene at the start"));
 
 template <>
-inline constexpr auto table<SceneDocument> =
-    table_of("scene_file", "Bodies to simulate. SI units, y up. Every key but \"bodies\" and a body's \"shape\" has a default.",
-             field("", &SceneDocument::scene), field("camera", &SceneDocument::viewpoint, "Suggested camera"),
-             field("settings", &SceneDocument::settings, "Settings of a step, unless the command line says otherwise"),
-             field("duration", &SceneDocument::duration, between(0, 1e6), "s", "Time of a run; 0: 10 s"),
-             field("picture", &SceneDocument::picture, "How pictures show the scene"),
-             field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"));
+inline constexpr auto table<FileGrains> =
+    table_of("file_grains", "Grains: bodies whose sizes follow a sieve curve, there at the start or poured",
+             field("start", &FileGrains::start, between(0, 1e6), "s", "Time from which poured grains come"),
+             field("", &FileGrains::grains));
+
+template <>
+inline constexpr auto table<SceneDocument> = table_of(
+    "scene_file", "Bodies to simulate. SI units, y up. Every key but \"bodies\" and a body's \"shape\" has a default.",
+    field("", &SceneDocument::scene), field("camera", &SceneDocument::viewpoint, "Suggested camera"),
+    field("settings", &SceneDocument::settings, "Settings of a step, unless the command line says otherwise"),
+    field("duration", &SceneDocument::duration, between(0, 1e6), "s", "Time of a run; 0: 10 s"),
+    field("picture", &SceneDocument::picture, "How pictures show the scene"),
+    field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"),
+    field("grains", &SceneDocument::grains, at_least(0), "grains", "Grains, which follow the bodies when the file is read"),
+    field("measures", &SceneDocument::measures, "What a run measures of its grains"));
 
 }  // namespace scree::schema

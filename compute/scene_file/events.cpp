@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compute/scene_file/pour.h"
+
 namespace scree {
 
 namespace {
@@ -55,6 +57,7 @@ struct Performance {
         world.set_motor(joint, main_axis(world.scene().joints.at(joint).kind), {event.speed, event.max_force});
     }
     void operator()(const GravityEvent& event) const { world.set_gravity(event.gravity); }
+    void operator()(const PourEvent&) const {}  // in every step from then on
 };
 
 // What an action needs of the scene.
@@ -91,6 +94,18 @@ struct Check {
         }
     }
     void operator()(const GravityEvent&) const {}
+    void operator()(const PourEvent& event) const {
+        const std::string inside = "/action/pour";
+        if (!event.grains.poured()) refuse(index, inside, "needs a \"mass_rate\" or \"count_rate\", above 0");
+        supply_of(event.grains, "/events/" + std::to_string(index) + inside);
+        for (std::size_t i = 0; i < index; ++i) {
+            const auto* other = std::get_if<PourEvent>(&events[i].action);
+            if (other && name_of_poured(other->grains) == name_of_poured(event.grains))
+                refuse(index, inside + "/name",
+                       "grains of /events/" + std::to_string(i) + " are named \"" + name_of_poured(event.grains) +
+                           "\", too; give them names, which tell how many have come");
+        }
+    }
 
     void require_motion(std::size_t body, const char* action, bool dynamic, bool kinematic) const {
         const std::string inside = std::string("/action/") + action + "/body";
@@ -120,10 +135,13 @@ void check_events(const std::vector<TimedEvent>& events, const Scene& scene) {
 void perform_due(const std::vector<TimedEvent>& events, World& world) {
     for (std::size_t i = 0; i < events.size(); ++i) {
         const auto* glide = std::get_if<GlideEvent>(&events[i].action);
+        const auto* pour = std::get_if<PourEvent>(&events[i].action);
         const bool arrives = glide && is_due(static_cast<double>(events[i].time) + static_cast<double>(glide->duration), world);
-        if (!arrives && !is_due(events[i].time, world)) continue;
+        if (!arrives && !pour && !is_due(events[i].time, world)) continue;
         try {
-            if (arrives)
+            if (pour)
+                pour_due(pour->grains, events[i].time, world);
+            else if (arrives)
                 world.set_velocity(glide->body, vec3(0), vec3(0));
             else
                 std::visit(Performance{events, i, world}, events[i].action);
@@ -151,6 +169,12 @@ std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, con
         next.time -= now;
         auto* glide = std::get_if<GlideEvent>(&next.action);
         const bool under_way = glide && next.time < 0 && next.time + glide->duration > 0;
+        if (auto* pour = std::get_if<PourEvent>(&next.action); pour && next.time < 0) {
+            pour->grains.from = poured(pour->grains, world);
+            next.time = 0;
+            if (pour->grains.from < supply_of(pour->grains, "/events")->count()) coming.push_back(next);
+            continue;
+        }
         if (next.time < 0 && !under_way) continue;
         if (under_way) {
             glide->turn *= (next.time + glide->duration) / glide->duration;

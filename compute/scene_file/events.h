@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "compute/grains.h"
 #include "compute/world.h"
 
 namespace scree {
@@ -45,7 +46,14 @@ struct GravityEvent {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
 };
 
-using EventAction = std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent>;
+// Pours grains from its time on, in bursts, until all are there (see Grains). A grain for which there is no room waits, and those
+// behind it. The names of the bodies say how many have come, so that a world that was restored goes on as it would have.
+struct PourEvent {
+    Grains grains{};
+};
+
+using EventAction =
+    std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent, PourEvent>;
 
 struct TimedEvent {
     float time = 0;  // s
@@ -54,6 +62,9 @@ struct TimedEvent {
 
 // Throws SceneError, with the JSON pointer of the event, for bodies and joints that do not exist or cannot do it.
 void check_events(const std::vector<TimedEvent>& events, const Scene& scene);
+
+// The name of the bodies of grains that are poured, without their number.
+std::string name_of_poured(const Grains& grains);
 
 // Performs the events due before the world's next step, in their order. Joints keep their numbers of the scene, however
 // many were released before. Throws SceneError with the JSON pointer of the event.

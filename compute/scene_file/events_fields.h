@@ -5,12 +5,13 @@
 
 #include "compute/scene_file/events.h"
 #include "compute/schema/field.h"
+#include "compute/schema/grains.h"
 
 namespace scree::schema {
 
 template <>
-inline constexpr auto alternatives<EventAction> =
-    Alternatives<7>{"event_action", "action", {"impulse", "velocity", "glide", "explosion", "release", "motor", "gravity"}};
+inline constexpr auto alternatives<EventAction> = Alternatives<8>{
+    "event_action", "action", {"impulse", "velocity", "glide", "explosion", "release", "motor", "gravity", "pour"}};
 
 template <>
 inline constexpr auto table<ImpulseEvent> =
@@ -51,6 +52,8 @@ template <>
 inline constexpr auto table<GravityEvent> =
     table_of("gravity_event", "Changes gravity",
              field("gravity", &GravityEvent::gravity, within(1e4), "m/s^2", "Acceleration of free fall").required());
+template <>
+inline constexpr auto table<PourEvent> = table_of("pour_event", "Pours grains from its time on", field("", &PourEvent::grains));
 
 template <>
 inline constexpr auto table<TimedEvent> =

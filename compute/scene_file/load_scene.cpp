@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compute/scene/body_validation.h"
+#include "compute/scene_file/file_grains.h"
 #include "compute/scene_file/import/folder.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "host/files/mesh_file.h"
@@ -26,22 +27,37 @@ public:
     void read(Body& body, std::size_t index) {
         auto* mesh = std::get_if<Mesh>(&body.shape);
         if (!mesh || mesh->file.empty()) return;
-        const std::string pointer = "/bodies/" + std::to_string(index) + "/shape/mesh/file";
-        if (!allow_outside_ && !imports::is_inside(imports::canonical_or_itself(home_ / mesh->file), home_))
-            throw SceneError(pointer, "\"" + mesh->file + "\" lies outside of the scene file's folder, " + home_.string() +
-                                          "; move it there, or allow it (--allow-outside, in Python allow_outside=True)");
-        try {
-            const auto [found, fresh] = files_.try_emplace(mesh->file);
-            if (fresh) found->second = host::read_mesh(folder_ / mesh->file);
-            mesh->vertices = found->second.vertices;
-            mesh->triangles = found->second.triangles;
-            for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
-        } catch (const host::FileError& error) {
-            throw SceneError(pointer, error.what());
+        const host::MeshFile& found = file(mesh->file, "/bodies/" + std::to_string(index) + "/shape/mesh/file");
+        mesh->vertices = found.vertices;
+        mesh->triangles = found.triangles;
+        for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
+    }
+    void read(Grains& grains, const std::string& place) {
+        for (std::size_t i = 0; i < grains.shapes.size(); ++i) {
+            auto* mesh = std::get_if<MeshGrain>(&grains.shapes[i].form);
+            if (!mesh || mesh->file.empty()) continue;
+            const std::string pointer = place + "/shapes/" + std::to_string(i) + "/form/mesh/file";
+            if (!mesh->points.empty()) throw SceneError(pointer, "there are points already; leave one out");
+            mesh->points = file(mesh->file, pointer).vertices;
+            mesh->file.clear();
         }
     }
 
 private:
+    const host::MeshFile& file(const std::string& name, const std::string& pointer) {
+        if (!allow_outside_ && !imports::is_inside(imports::canonical_or_itself(home_ / name), home_))
+            throw SceneError(pointer, "\"" + name + "\" lies outside of the scene file's folder, " + home_.string() +
+                                          "; move it there, or allow it (--allow-outside, in Python allow_outside=True)");
+        try {
+            const auto [found, fresh] = files_.try_emplace(name);
+            if (fresh) found->second = host::read_mesh(folder_ / name);
+            return found->second;
+        } catch (const host::FileError& error) {
+            files_.erase(name);
+            throw SceneError(pointer, error.what());
+        }
+    }
+
     std::filesystem::path folder_, home_;
     bool allow_outside_;
     std::map<std::string, host::MeshFile> files_;  // that several bodies may name
@@ -63,13 +79,24 @@ SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions&
         std::vector<std::string> ignored;
         return import_scene(path, options, notes ? *notes : ignored, most_bodies);
     }
-    return scene_from_text(host::read_text(path), path.parent_path(), most_bodies, options.allow_outside);
+    std::vector<std::string> told;
+    SceneDocument document =
+        scene_from_text(host::read_text(path), path.parent_path(), most_bodies, options.allow_outside, &told);
+    if (notes)
+        for (const std::string& note : told) notes->push_back(path.string() + ": " + note);
+    return document;
 }
 
 SceneDocument scene_from_text(std::string_view text, const std::filesystem::path& folder, std::size_t most_bodies,
-                              bool allow_outside) {
-    SceneDocument document = scene_from_json(text, most_bodies);
+                              bool allow_outside, std::vector<std::string>* notes) {
+    SceneDocument document = scene_before_grains(text, most_bodies);
     MeshFiles meshes(folder, allow_outside);
+    for (std::size_t i = 0; i < document.grains.size(); ++i)
+        meshes.read(document.grains[i].grains, "/grains/" + std::to_string(i));
+    for (std::size_t i = 0; i < document.events.size(); ++i)
+        if (auto* pour = std::get_if<PourEvent>(&document.events[i].action))
+            meshes.read(pour->grains, "/events/" + std::to_string(i) + "/action/pour");
+    add_grains(document, notes, most_bodies);
     for (std::size_t i = 0; i < document.scene.bodies.size(); ++i) meshes.read(document.scene.bodies[i], i);
     return document;
 }

@@ -23,9 +23,11 @@ bool is_scene_import(const std::filesystem::path& path);
 SceneDocument load_scene(const std::filesystem::path& path, std::size_t most_bodies = static_cast<std::size_t>(-1));
 // The same from a scene file's text; meshes are found relative to `folder`, with `allow_outside` anywhere.
 SceneDocument scene_from_text(std::string_view text, const std::filesystem::path& folder,
-                              std::size_t most_bodies = static_cast<std::size_t>(-1), bool allow_outside = false);
+                              std::size_t most_bodies = static_cast<std::size_t>(-1), bool allow_outside = false,
+                              std::vector<std::string>* notes = nullptr);
 // The same, and files of other programs: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL, OBJ, glTF physics. Appends to `notes`, if
-// given, what of those is not translated, as "FILE:LINE: reason". Throws ImportError (a std::runtime_error) for them.
+// given, what of those is not translated, as "FILE:LINE: reason", and remarks on grains (add_grains). Throws ImportError (a
+// std::runtime_error) for them.
 SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions& options,
                          std::vector<std::string>* notes = nullptr, std::size_t most_bodies = static_cast<std::size_t>(-1));
 

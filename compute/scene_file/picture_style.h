@@ -29,7 +29,7 @@ enum class ShownScale {
     logarithmic  // from a thousandth of the range's upper end unless the range says
 };
 enum class ShownSky { day, evening, overcast, studio, night };
-enum class Overlay { contacts, velocities, joints, boxes, cells, sleep };
+enum class Overlay { contacts, velocities, joints, boxes, cells, sleep, parts };
 
 struct PictureStyle {
     ShownQuantity color = ShownQuantity::momentum;

@@ -19,7 +19,7 @@ inline constexpr auto words<ShownScale> = std::array{"auto", "linear", "root", "
 template <>
 inline constexpr auto words<ShownSky> = std::array{"day", "evening", "overcast", "studio", "night"};
 template <>
-inline constexpr auto words<Overlay> = std::array{"contacts", "velocities", "joints", "boxes", "cells", "sleep"};
+inline constexpr auto words<Overlay> = std::array{"contacts", "velocities", "joints", "boxes", "cells", "sleep", "parts"};
 
 template <>
 inline constexpr auto table<PictureStyle> = table_of(

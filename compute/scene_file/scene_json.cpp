@@ -9,6 +9,7 @@
 
 #include "compute/scene_file/document_fields.h"
 #include "compute/scene_file/fields_read.h"
+#include "compute/scene_file/file_grains.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/shapes_json.h"
@@ -83,6 +84,8 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     read_checked(schema::field_of(&SceneDocument::duration));
     read_checked(schema::field_of(&SceneDocument::picture));
     read_checked(schema::field_of(&SceneDocument::events));
+    read_field(rest, root, schema::field_of(&SceneDocument::grains), document, named);
+    read_field(rest, root, schema::field_of(&SceneDocument::measures), document, named);
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
         const Place picture = root / "picture", place = picture / "color_range";
@@ -90,7 +93,6 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
         if (document.picture->scale == ShownScale::logarithmic && range.x != range.y && range.x <= 0)
             refuse(place, "must begin above 0 on a logarithmic scale");
     }
-    check_events(document.events, document.scene);
 }
 
 // Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
@@ -157,15 +159,22 @@ void read_around(const json& rest, SceneDocument& document) {
 bool refers_to_bodies(const json& rest) {
     const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
     const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
-    return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events");
+    return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events") ||
+           names_any("grains") || names_any("measures");
 }
 
 }  // namespace
 
-SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
+SceneDocument scene_before_grains(std::string_view text, std::size_t most_bodies) {
     SceneDocument document;
     const TakeBody take = [&](Body body) { document.scene.bodies.push_back(std::move(body)); };
     read_around(parsed(text, Listener(take, most_bodies)), document);
+    return document;
+}
+
+SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
+    SceneDocument document = scene_before_grains(text, most_bodies);
+    add_grains(document, nullptr, most_bodies);
     return document;
 }
 

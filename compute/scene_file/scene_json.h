@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/scene.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/picture_style.h"
@@ -39,6 +40,12 @@ struct Viewpoint {
     bool fit = false;    // as near as sees the whole scene at the start, in the direction from target to eye
 };
 
+// Grains of a scene file.
+struct FileGrains {
+    Grains grains{};
+    float start = 0;  // s, when those that are poured begin to come
+};
+
 // A scene file: the scene, and how it is run and shown.
 struct SceneDocument {
     Scene scene{};  // not validated; World does that
@@ -47,7 +54,16 @@ struct SceneDocument {
     float duration = 0;  // s, of a run that is not told how long; 0: 10 s
     std::optional<PictureStyle> picture{};
     std::vector<TimedEvent> events{};
+    // Until add_grains(): grains to come. Reading a file has done that.
+    std::vector<FileGrains> grains{};
+    std::optional<MeasureRequest> measures{};
 };
+
+// Takes the document's grains: those that are there at the start become bodies behind the others, those that are poured events.
+// Throws SceneError, its pointer by the index in the list, and for more than `most_bodies` bodies. `notes`, if given, receives
+// remarks, on curves that few grains miss.
+void add_grains(SceneDocument& document, std::vector<std::string>* notes = nullptr,
+                std::size_t most_bodies = static_cast<std::size_t>(-1));
 
 // Reads a scene file's text (format: scene_schema()). Throws SceneError with the JSON pointer of an invalid value, or
 // line and column of a syntax error. Rejects more than `most_bodies` bodies before they fill memory.

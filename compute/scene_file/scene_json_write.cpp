@@ -75,6 +75,7 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
     write_one("duration", shown.duration, 0.0f);
     if (viewpoint) write_camera(text, *viewpoint);
     write_one("picture", shown.picture, std::optional<PictureStyle>());
+    write_one("measures", shown.measures, std::optional<MeasureRequest>());
     write_list(text, "bodies", scene.bodies);
     if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
     if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);

@@ -40,7 +40,7 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
     if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
     for (std::size_t i = 0; i < value.size(); ++i) {
         const Place here = place / i;
-        only(value[i], here, {"shape", "position", "orientation", "density", "filter", "role", "material"});
+        only(value[i], here, {"shape", "position", "orientation", "density", "filter", "role", "material", "skinned"});
         Part& part = parts.emplace_back();
         // Rejected before its parts are read: nested compounds could overflow the stack.
         if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
@@ -58,15 +58,44 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
         if (const auto role = value[i].find("role"); role != value[i].end()) read_value(*role, here / "role", part.role, "", {});
         if (const auto material = value[i].find("material"); material != value[i].end())
             read_value(*material, here / "material", part.material.emplace(), "", {});
+        optional(value[i], here, "skinned", part.skinned);
     }
+}
+
+static void read_skins(const json& value, const Place& place, std::vector<Skin>& skins) {
+    if (!value.is_array()) refuse(place, "must be an array of skins, is " + kind(value));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const Place here = place / i;
+        only(value[i], here, {"vertices", "triangles", "position", "orientation"});
+        Skin& skin = skins.emplace_back();
+        auto mesh = std::make_shared<Mesh>();
+        required(value[i], here, "vertices", mesh->vertices);
+        required(value[i], here, "triangles", mesh->triangles);
+        optional(value[i], here, "position", skin.position);
+        optional(value[i], here, "orientation", skin.orientation);
+        skin.mesh = std::move(mesh);
+    }
+}
+
+static void read_decomposition(const json& sizes, const Place& inside, Mesh& mesh) {
+    const auto found = sizes.find("decompose");
+    if (found == sizes.end()) return;
+    const Place here = inside / "decompose";
+    if (!found->is_object()) refuse(here, "must be an object such as {\"error\": 0.02, \"parts\": 32}, is " + kind(*found));
+    only(*found, here, {"error", "parts", "vertices"});
+    Decomposition& wanted = mesh.decompose.emplace();
+    optional(*found, here, "error", wanted.error);
+    optional(*found, here, "parts", wanted.parts);
+    optional(*found, here, "vertices", wanted.vertices);
 }
 
 // Vertices and triangles, or the name of a mesh file.
 static void read_mesh(const json& sizes, const Place& inside, Mesh& mesh) {
-    only(sizes, inside, {"file", "scale"});
+    only(sizes, inside, {"file", "scale", "decompose"});
     required(sizes, inside, "file", mesh.file);
     optional(sizes, inside, "scale", mesh.scale);
     if (mesh.file.empty()) refuse(inside / "file", "must name a file");
+    read_decomposition(sizes, inside, mesh);
     if (!(mesh.scale >= 1e-6f && mesh.scale <= 1e6f)) refuse(inside / "scale", "must be between 0.000001 and 1000000");
 }
 
@@ -74,7 +103,12 @@ template <class OfShape>
 static void read_fields(const json& sizes, const Place& inside, OfShape& shape) {
     Names names;
     for_each_shape_field<OfShape>([&](const auto& field) { names.emplace_back(field.name); });
+    if constexpr (std::is_same_v<OfShape, Mesh>) names.emplace_back("decompose");
+    if constexpr (std::is_same_v<OfShape, Compound>) names.emplace_back("skins");
     only(sizes, inside, names);
+    if constexpr (std::is_same_v<OfShape, Mesh>) read_decomposition(sizes, inside, shape);
+    if constexpr (std::is_same_v<OfShape, Compound>)
+        if (const auto skins = sizes.find("skins"); skins != sizes.end()) read_skins(*skins, inside / "skins", shape.skins);
     for_each_shape_field<OfShape>([&](const auto& field) {
         if (field.required)
             required(sizes, inside, field.name, shape.*field.member);
@@ -143,9 +177,33 @@ void write_shape_value(Text& text, const std::vector<Part>& parts) {
         if (part.filter) write_value(text << ", \"filter\": ", *part.filter);
         if (part.material) write_value(text << ", \"material\": ", *part.material);
         if (part.role != Role::solid) write_value(text << ", \"role\": ", part.role);
+        if (part.skinned) text << ", \"skinned\": true";
         between = "}, {\"shape\": ";
     }
     text << (parts.empty() ? "[]" : "}]");
+}
+
+// What is not in the list of shapes.
+template <class OfShape>
+void write_rest(Text&, const OfShape&) {}
+void write_rest(Text& text, const Mesh& mesh) {
+    if (!mesh.decompose) return;
+    text << ", \"decompose\": {\"error\": " << mesh.decompose->error << ", \"parts\": " << mesh.decompose->parts
+         << ", \"vertices\": " << mesh.decompose->vertices << "}";
+}
+void write_rest(Text& text, const Compound& compound) {
+    if (compound.skins.empty()) return;
+    const char* between = ", \"skins\": [{\"vertices\": ";
+    for (const Skin& skin : compound.skins) {
+        text << between;
+        text.list(skin.mesh->vertices);
+        text << ", \"triangles\": ";
+        text.list(skin.mesh->triangles);
+        if (skin.position != vec3(0)) text << ", \"position\": " << skin.position;
+        if (skin.orientation != vec4(0, 0, 0, 1)) text << ", \"orientation\": " << skin.orientation;
+        between = "}, {\"vertices\": ";
+    }
+    text << "}]";
 }
 
 }  // namespace
@@ -160,6 +218,7 @@ void write_shape(Text& text, const Shape& shape) {
                 write_shape_value(text, one.*field.member);
                 between = ", \"";
             });
+            write_rest(text, one);
         },
         shape);
     text << "}}";

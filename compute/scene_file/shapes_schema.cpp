@@ -135,7 +135,23 @@ ordered_json schemas_with_lists() {
                                         "default": "solid",
                                         "description": "solid, a sensor, or only drawn; only solid parts have mass. All are as the body if that is not solid"
                                     },
-                                    "material": {"$ref": "#/$defs/material", "description": "left out: the body's own"}
+                                    "material": {"$ref": "#/$defs/material", "description": "left out: the body's own"},
+                                    "skinned": {"type": "boolean", "default": false, "description": "pictures show the compound's skins in its place"}
+                                }
+                            }
+                        },
+                        "skins": {
+                            "type": "array",
+                            "description": "meshes that pictures show in place of the parts that are skinned; nothing collides with them",
+                            "items": {
+                                "type": "object",
+                                "required": ["vertices", "triangles"],
+                                "additionalProperties": false,
+                                "properties": {
+                                    "vertices": {"type": "array", "items": {"$ref": "#/$defs/vector"}, "description": "m"},
+                                    "triangles": {"type": "array", "items": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}},
+                                    "position": {"$ref": "#/$defs/vector", "default": [0, 0, 0], "description": "in the body's frame, m"},
+                                    "orientation": {"type": "array", "items": {"$ref": "#/$defs/number"}, "minItems": 4, "maxItems": 4, "default": [0, 0, 0, 1], "description": "quaternion x, y, z, w of any length but 0"}
                                 }
                             }
                         }
@@ -146,7 +162,7 @@ ordered_json schemas_with_lists() {
         {
             "required": ["mesh"],
             "additionalProperties": false,
-            "description": "triangles, solid behind their faces; only for \"fixed\" and \"kinematic\" bodies",
+            "description": "triangles: of a \"fixed\" or \"kinematic\" body a surface, solid behind its faces; of a \"dynamic\" one a solid of convex parts",
             "properties": {
                 "mesh": {
                     "type": "object",
@@ -155,6 +171,22 @@ ordered_json schemas_with_lists() {
                             "required": ["file"],
                             "additionalProperties": false,
                             "properties": {
+                                "decompose": {
+                                    "type": "object",
+                                    "additionalProperties": false,
+                                    "description": "a solid of convex parts, as of a dynamic body; left out: the numbers here",
+                                    "properties": {
+                                        "error": {
+                                            "type": "number",
+                                            "minimum": 0.002,
+                                            "maximum": 0.5,
+                                            "default": 0.02,
+                                            "description": "greatest distance between the surfaces, in longest extents of the mesh"
+                                        },
+                                        "parts": {"type": "integer", "minimum": 1, "maximum": 256, "default": 32, "description": "at most; fewer have a greater error"},
+                                        "vertices": {"type": "integer", "minimum": 8, "maximum": 64, "default": 64, "description": "of a part, at most"}
+                                    }
+                                },
                                 "file": {
                                     "type": "string",
                                     "minLength": 1,
@@ -173,6 +205,22 @@ ordered_json schemas_with_lists() {
                             "required": ["vertices", "triangles"],
                             "additionalProperties": false,
                             "properties": {
+                                "decompose": {
+                                    "type": "object",
+                                    "additionalProperties": false,
+                                    "description": "a solid of convex parts, as of a dynamic body; left out: the numbers here",
+                                    "properties": {
+                                        "error": {
+                                            "type": "number",
+                                            "minimum": 0.002,
+                                            "maximum": 0.5,
+                                            "default": 0.02,
+                                            "description": "greatest distance between the surfaces, in longest extents of the mesh"
+                                        },
+                                        "parts": {"type": "integer", "minimum": 1, "maximum": 256, "default": 32, "description": "at most; fewer have a greater error"},
+                                        "vertices": {"type": "integer", "minimum": 8, "maximum": 64, "default": 64, "description": "of a part, at most"}
+                                    }
+                                },
                                 "vertices": {
                                     "type": "array",
                                     "minItems": 3,

@@ -1,6 +1,7 @@
 // Bodies, joints, vehicles and settings as bytes, by their field tables (compute/schema).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -32,10 +33,11 @@ void for_each_member(Struct& one, const Visit& visit) {
     using Kind = std::remove_const_t<Struct>;
     if constexpr (OfAShape<Kind>) {
         for_each_shape_field<Kind>([&](const auto& field) { visit(one.*field.member); });
-        if constexpr (std::is_same_v<Kind, Mesh>) visit(one.file), visit(one.scale);
+        if constexpr (std::is_same_v<Kind, Mesh>) visit(one.file), visit(one.scale), visit(one.decompose);
+        if constexpr (std::is_same_v<Kind, Compound>) visit(one.skins);
     } else if constexpr (std::is_same_v<Kind, Part>) {
         visit(one.shape), visit(one.position), visit(one.orientation), visit(one.density), visit(one.filter);
-        visit(one.role), visit(one.material);
+        visit(one.role), visit(one.material), visit(one.skinned);
     } else {
         schema::for_each_field<Kind>([&](const auto& field) { visit(one.*field.member); });
     }
@@ -54,6 +56,10 @@ void put_value(ByteWriter& out, const Value& value) {
     } else if constexpr (is_variant<Value>) {
         out.put(static_cast<std::uint8_t>(value.index()));
         std::visit([&](const auto& one) { put_value(out, one); }, value);
+    } else if constexpr (std::is_same_v<Value, Skin>) {
+        put_value(out, *value.mesh);
+        put_value(out, value.position);
+        put_value(out, value.orientation);
     } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || schema::HasTable<Value>) {
         for_each_member(value, [&](const auto& member) { put_value(out, member); });
     } else {
@@ -86,6 +92,12 @@ void take_value(ByteReader& in, Value& value) {
     } else if constexpr (is_variant<Value>) {
         choose_alternative(value, in.take<std::uint8_t>());
         std::visit([&](auto& one) { take_value(in, one); }, value);
+    } else if constexpr (std::is_same_v<Value, Skin>) {
+        auto mesh = std::make_shared<Mesh>();
+        take_value(in, *mesh);
+        value.mesh = std::move(mesh);
+        take_value(in, value.position);
+        take_value(in, value.orientation);
     } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || schema::HasTable<Value>) {
         for_each_member(value, [&](auto& member) { take_value(in, member); });
     } else if constexpr (schema::HasWords<Value>) {

@@ -14,13 +14,14 @@
 #include <utility>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "demos/c/call.h"
 #include "demos/c/handles.h"
 #include "demos/film/drawing.h"
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/outputs/export_file.h"
@@ -44,7 +45,8 @@ struct Easel {
 struct WorldObject {
     WorldObject(const SceneDocument& document, World made, const demos::Backend& backend)
         : machine(backend),
-          shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
+          shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events,
+                {}, document.measures},
           world(std::move(made)) {}
     WorldObject(const WorldObject&) = delete;
     ~WorldObject();  // ends its exports
@@ -53,10 +55,13 @@ struct WorldObject {
     SceneDocument shown;  // how it is run and shown; without the scene, which the world has
     World world;
     std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
+    std::optional<Measuring> measuring;
+    std::optional<Measures> measured;  // last
     std::vector<Easel> easels;
     std::vector<std::shared_ptr<demos::Animation>> exports;       // being recorded
     std::vector<std::weak_ptr<demos::PageRecording>> recordings;  // likewise; their handles hold them
     std::atomic<std::size_t> views = 0;                           // that look into its tables
+    demos::Script before_step;                                    // of a demo that it follows
     std::shared_mutex in_use;
 
     const demos::LoadedScene& as_subject();
@@ -78,6 +83,8 @@ struct RecordingObject {
     std::mutex in_use;
 };
 
+// Throws Failure.
+demos::LoadedScene demo_given(const std::string& name, std::size_t bodies, std::uint64_t seed);
 // A camera of the caller, and the scene's style with what a look of it changes. Throw Failure.
 host::Camera camera_given(const char* json, const char* name);
 PictureStyle style_given(const SceneDocument& shown, const char* look_json);

@@ -82,8 +82,8 @@ Look look_of(const SceneDocument& shown, const char* text) {
 bool alike(const host::CanvasOptions& a, const host::CanvasOptions& b) {
     return a.width == b.width && a.height == b.height && a.legend == b.legend && a.smooth == b.smooth && a.shadows == b.shadows &&
            a.sky == b.sky && a.toward_sun == b.toward_sun && a.marks == b.marks && a.velocities == b.velocities &&
-           a.boxes == b.boxes && a.cells == b.cells && a.joints == b.joints && a.sleep == b.sleep && a.mark_push == b.mark_push &&
-           a.joint_pull == b.joint_pull;
+           a.boxes == b.boxes && a.cells == b.cells && a.joints == b.joints && a.sleep == b.sleep && a.parts == b.parts &&
+           a.mark_push == b.mark_push && a.joint_pull == b.joint_pull;
 }
 
 demos::Drawing& drawing_for(WorldObject& object, const host::CanvasOptions& options, const std::string& canvas,

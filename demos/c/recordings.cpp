@@ -4,7 +4,7 @@
 
 #include "demos/c/json.h"
 #include "demos/c/objects.h"
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 #include "host/files/growing_file.h"
 
 namespace scree::c {

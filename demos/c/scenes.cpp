@@ -18,6 +18,7 @@
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
+#include "host/system/machine.h"
 
 namespace scree::c {
 
@@ -33,7 +34,8 @@ const std::vector<std::pair<std::string, KeysOf>>& described() {
         {"body", &keys_of<Body>},         {"joint", &keys_of<Joint>},          {"settings", &keys_of<Settings>},
         {"vehicle", &keys_of<Vehicle>},   {"filter", &keys_of<Filter>},        {"material", &keys_of<Material>},
         {"fields", &keys_of<Fields>},     {"fracture", &keys_of<Fracture>},    {"tyre", &keys_of<Tyre>},
-        {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>}};
+        {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>},
+        {"grains", &keys_of<FileGrains>}};
     return all;
 }
 
@@ -72,6 +74,19 @@ void read_mesh_file(Body& body, const Place& place) {
         for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
     } catch (const host::FileError& error) {
         json_reading::refuse(place / "shape" / "mesh" / "file", error.what());
+    }
+}
+
+void read_grain_file(GrainShape& shape, std::size_t index) {
+    auto* mesh = std::get_if<MeshGrain>(&shape.form);
+    if (!mesh || mesh->file.empty()) return;
+    try {
+        mesh->points = host::read_mesh(mesh->file).vertices;
+        mesh->file.clear();
+    } catch (const host::FileError& error) {
+        const Place grains = root / "grains", list = grains / std::size_t{0}, shapes = list / "shapes", one = shapes / index;
+        const Place form = one / "form", of_mesh = form / "mesh";
+        json_reading::refuse(of_mesh / "file", error.what());
     }
 }
 
@@ -140,6 +155,22 @@ std::size_t add_event(SceneDocument& document, const json& value) {
     return document.events.size() - 1;
 }
 
+// Gives the index of the first body, or of the event that pours them.
+std::size_t add_grains_of(SceneDocument& document, const json& value, std::vector<std::string>& notes) {
+    FileGrains made = next_of(document.grains, "grains", value, document.scene);
+    for (std::size_t i = 0; i < made.grains.shapes.size(); ++i) read_grain_file(made.grains.shapes[i], i);
+    const std::size_t first = made.grains.poured() ? document.events.size() : document.scene.bodies.size();
+    document.grains = {std::move(made)};
+    try {
+        constexpr double bytes_of_body = 7000;  // scene and tables
+        add_grains(document, &notes, static_cast<std::size_t>(std::min(host::available_memory() / bytes_of_body, 4.0e9)));
+    } catch (const SceneError&) {
+        document.grains.clear();
+        throw;
+    }
+    return first;
+}
+
 std::size_t add_exclusion(Scene& scene, const json& value) {
     const Place list = root / "exclusions", place = list / scene.exclusions.size();
     if (!value.is_array() || value.size() != 2) json_reading::refuse(place, "must be two bodies, is " + kind(value));
@@ -191,19 +222,21 @@ std::size_t add_cart_of(Scene& scene, const json& value) {
     return add_cart(scene, cart);
 }
 
-using Add = std::size_t (*)(SceneDocument&, const json&);
+using Add = std::size_t (*)(SceneObject&, const json&);
 const std::vector<std::pair<std::string, Add>>& additions() {
     static const std::vector<std::pair<std::string, Add>> all{
-        {"joints", [](SceneDocument& to, const json& value) { return add_joint(to.scene, value); }},
+        {"joints", [](SceneObject& to, const json& value) { return add_joint(to.document.scene, value); }},
         {"vehicles",
-         [](SceneDocument& to, const json& value) {
-             to.scene.vehicles.push_back(next_of(to.scene.vehicles, "vehicles", value, to.scene));
-             return to.scene.vehicles.size() - 1;
+         [](SceneObject& to, const json& value) {
+             Scene& scene = to.document.scene;
+             scene.vehicles.push_back(next_of(scene.vehicles, "vehicles", value, scene));
+             return scene.vehicles.size() - 1;
          }},
-        {"events", &add_event},
-        {"exclusions", [](SceneDocument& to, const json& value) { return add_exclusion(to.scene, value); }},
-        {"cars", [](SceneDocument& to, const json& value) { return add_car_of(to.scene, value); }},
-        {"carts", [](SceneDocument& to, const json& value) { return add_cart_of(to.scene, value); }}};
+        {"events", [](SceneObject& to, const json& value) { return add_event(to.document, value); }},
+        {"grains", [](SceneObject& to, const json& value) { return add_grains_of(to.document, value, to.notes); }},
+        {"exclusions", [](SceneObject& to, const json& value) { return add_exclusion(to.document.scene, value); }},
+        {"cars", [](SceneObject& to, const json& value) { return add_car_of(to.document.scene, value); }},
+        {"carts", [](SceneObject& to, const json& value) { return add_cart_of(to.document.scene, value); }}};
     return all;
 }
 
@@ -327,6 +360,15 @@ std::shared_ptr<SceneObject> loaded(const std::string& path, const scree_load_op
 }
 
 std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bodies, std::uint64_t seed) {
+    const demos::LoadedScene subject = demo_given(name, bodies, seed);
+    std::vector<std::string> notes;
+    if (subject.before_step) notes.push_back(name + ": its scripted actions during a run are no part of the scene");
+    return made_scene(demos::document_of(subject), std::move(notes));
+}
+
+}  // namespace
+
+demos::LoadedScene demo_given(const std::string& name, std::size_t bodies, std::uint64_t seed) {
     demos::SceneOptions options;
     options.name = name;
     options.bodies = bodies;
@@ -337,20 +379,13 @@ std::shared_ptr<SceneObject> demo_scene(const std::string& name, std::size_t bod
             if (!demo.trial) known.push_back(demo.name);
         refuse(unknown("demo", name, known));
     }
-    const demos::LoadedScene subject = [&] {
-        try {
-            return demos::load_subject(options);
-        } catch (const demos::UsageError& error) {  // of the command line: "--bodies: the demo has"
-            const std::string what = error.what();
-            refuse(what.substr(what.starts_with("--") ? 2 : 0));
-        }
-    }();
-    std::vector<std::string> notes;
-    if (subject.before_step) notes.push_back(name + ": its scripted actions during a run are no part of the scene");
-    return made_scene(demos::document_of(subject), std::move(notes));
+    try {
+        return demos::load_subject(options);
+    } catch (const demos::UsageError& error) {  // of the command line: "--bodies: the demo has"
+        const std::string what = error.what();
+        refuse(what.substr(what.starts_with("--") ? 2 : 0));
+    }
 }
-
-}  // namespace
 
 }  // namespace scree::c
 
@@ -454,7 +489,7 @@ scree_result scree_scene_add(scree_scene* scene, const char* list, const char* t
     return called([&] {
         const UsedScene to(scene);
         const Add add = named(additions(), "list", text_of(list, "list"));
-        const std::size_t made = add(to->document, json_given(text, "json"));
+        const std::size_t made = add(*to, json_given(text, "json"));
         if (index != nullptr) *index = made;
     });
 }

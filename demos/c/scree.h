@@ -67,7 +67,7 @@ typedef enum scree_result {
 SCREE_API const char* scree_error_message(void);
 SCREE_API const char* scree_error_place(void); /* a JSON pointer, or "" */
 
-SCREE_API const char* scree_version(void); /* such as "0.12.0" */
+SCREE_API const char* scree_version(void); /* such as "0.13.0" */
 SCREE_API int scree_has_vulkan(void);      /* whether it was built with it */
 
 /* JSON of what the library knows. what: "schema" of scene files; "settings" by default; "demos", an array of [name, line]; "keys"
@@ -144,8 +144,8 @@ SCREE_API scree_result scree_scene_demo(const char* name, size_t bodies, uint64_
  * or of a vector of three or four. first: index of the first. */
 SCREE_API scree_result scree_scene_add_bodies(scree_scene* scene, const char* body_json, size_t count,
                                               const scree_column* columns, size_t column_count, size_t* first);
-/* list: "joints", "vehicles", "events", "exclusions" ([a, b]), or the presets "cars" and "carts". index: in the list; may be
- * null. */
+/* list: "joints", "vehicles", "events", "exclusions" ([a, b]), "grains", or the presets "cars" and "carts". index: in the list,
+ * of grains that of the first body, or of the event that pours them; may be null. */
 SCREE_API scree_result scree_scene_add(scree_scene* scene, const char* list, const char* json, size_t* index);
 /* key: "settings", "picture", "camera", "fields", "gravity", "duration". null as JSON takes settings, picture and camera away. */
 SCREE_API scree_result scree_scene_set(scree_scene* scene, const char* key, const char* json);
@@ -195,6 +195,9 @@ typedef int (*scree_progress)(void* user, uint64_t done, uint64_t count);
 /* Steps of 1 / rate s: 60 a second, or as the settings say. Performs the scene's timed events on the way. progress is called
  * between steps, at least once in 20 ms or step; it and user may be null. */
 SCREE_API scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress progress, void* user);
+/* Later steps perform what the program does in a run of this demo and is no part of its scene: bodies of "fountain" are born and
+ * go. bodies and seed: as of scree_scene_demo. name: null: nothing any more. Such a world can have no views while it steps. */
+SCREE_API scree_result scree_world_follow_demo(scree_world* world, const char* name, size_t bodies, uint64_t seed);
 
 typedef struct scree_world_info {
     size_t size;
@@ -367,6 +370,17 @@ typedef struct scree_sensed {
     int32_t sensor_part, part;
 } scree_sensed;
 SCREE_API scree_result scree_world_sensed(scree_world* world, scree_array* overlaps);
+
+/* ---- Measures of granular media, as the guide defines them */
+
+/* What is measured from now on: "measures" of scene files, or null: those of the scene. copy: whose grains count, in a world of
+ * several; else 0. Gates count crossings from the next step on, which are then waited for one by one. */
+SCREE_API scree_result scree_world_set_measures(scree_world* world, const char* measures_json, size_t copy);
+/* Measures the world as it is. json: "step"; "time", s; "cells" of the grid along x, y, z; "names" of "regions" (first "all", the
+ * grains as a whole), "gates" and "bodies"; "columns": their names, such as "regions.stress", and numbers a row. */
+SCREE_API scree_result scree_world_measure(scree_world* world, const char** json);
+/* A column of what was measured last: double, row by row. Rows of grains.* are bodies, of grid.* cells, x fastest. */
+SCREE_API scree_result scree_world_measured(scree_world* world, const char* column, scree_array* values);
 
 /* ---- Joints and vehicles */
 

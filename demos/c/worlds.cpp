@@ -81,13 +81,18 @@ public:
     }
 
     void run() {
-        const bool has_events = !object_.shown.events.empty();
+        const bool has_events = !object_.shown.events.empty() || object_.before_step;
         for (std::uint64_t done = 0; done < count_;) {
-            if (has_events) perform_due(object_.shown.events, object_.world);
+            if (!object_.shown.events.empty()) perform_due(object_.shown.events, object_.world);
+            if (object_.before_step) {
+                object_.require_no_views("stepped after a demo");
+                object_.before_step(object_.world);
+            }
             int batch =
                 has_events ? 1 : static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch_), count_ - done));
             for (const auto& file : object_.exports) batch = std::min(batch, file->steps_until_due(object_.world));
             for (const auto& page : pages_) batch = std::min(batch, page->steps_until_due());
+            if (object_.measuring && object_.measuring->watches_steps()) batch = 1;
             step(batch);
             done += static_cast<std::uint64_t>(batch);
             if (progress_ != nullptr && progress_(user_, done, count_) != 0 && done < count_)
@@ -109,6 +114,7 @@ private:
         }
         for (const auto& file : object_.exports) file->after_step(object_.world);
         for (const auto& page : pages_) page->after_step();
+        if (object_.measuring) object_.measuring->after_step(object_.world);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (seconds < 0.5 * batch_seconds) batch_ = std::min(2 * batch_, largest_batch);
         if (seconds > 2 * batch_seconds) batch_ = std::max(batch_ / 2, 1);
@@ -161,6 +167,7 @@ SceneDocument present(WorldObject& object, std::optional<std::size_t> copy, std:
     made.scene = copy ? object.world.snapshot_of(*copy) : object.world.snapshot();
     made.settings = object.world.settings();
     made.events = coming_events(object.shown.events, object.world);
+    if (made.measures && object.world.statistics().broken > 0) made.measures->bodies.clear();  // they are numbered anew
     if (made.events.size() != object.shown.events.size() && object.world.statistics().broken > 0 && !object.shown.events.empty())
         notes.emplace_back("bodies have broken, which numbers them anew: its timed events are left out");
     return made;
@@ -217,6 +224,18 @@ scree_result scree_world_step(scree_world* world, uint64_t count, scree_progress
     return called([&] {
         const UsedWorld of(world);
         Stepping(*of, count, progress, user).run();
+    });
+}
+
+scree_result scree_world_follow_demo(scree_world* world, const char* name, size_t bodies, uint64_t seed) {
+    return called([&] {
+        const UsedWorld used(world);
+        if (name == nullptr) {
+            used->before_step = nullptr;
+            return;
+        }
+        if (used->world.copies() > 1) refuse("name: a world of copies follows no demo");
+        used->before_step = demo_given(text_of(name, "name"), bodies, seed).before_step;
     });
 }
 

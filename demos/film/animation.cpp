@@ -54,6 +54,7 @@ void AnimationRecorder::take_bodies(const World& world) {
         body.inverse_mass = double{state.properties[state.row_of(i)].inverse_mass};
         body.exists = body.existed = states[i].exists;
         body.now = states[i];
+        body.origin = described.origin;
         if (!body.plane) body.start_position = states[i].position, body.start_orientation = states[i].orientation;
         all_.bodies.push_back(std::move(body));
     }

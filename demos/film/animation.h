@@ -25,7 +25,8 @@ struct AnimatedBody {
     bool exists = true;
     glm::vec3 start_position{0};  // m; planes stand in the world
     glm::vec4 start_orientation{0, 0, 0, 1};
-    BodyState now;  // the last while it existed, but for velocities, which are 0 afterwards
+    std::optional<BodyFrame> origin{};  // in which the body was described, in its own frame; none: that
+    BodyState now;                      // the last while it existed, but for velocities, which are 0 afterwards
 };
 
 struct Moment {

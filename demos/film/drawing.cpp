@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "compute/scene/mesh.h"
 #include "compute/tables/state.h"
@@ -20,6 +21,7 @@ namespace {
 // Rows grouped by shape and mesh.
 class Instances {
 public:
+    explicit Instances(bool parts = false) : parts_(parts) {}
     void add(std::uint32_t row, const SimpleShape& shape) {
         std::visit([&](const auto& one) { draw(row, one); }, shape);
     }
@@ -36,11 +38,7 @@ public:
     // Of a body, also of a removed one: shaders skip its row.
     void add(const Shape& shape, std::uint32_t row, std::uint32_t first_part) {
         if (const std::optional<SimpleShape> simple = simple_shape(shape)) add(row, *simple);
-        if (const auto* compound = std::get_if<Compound>(&shape))
-            for (const Part& one : compound->parts) {
-                if (one.role != Role::sensor) add(first_part, one.shape);
-                ++first_part;
-            }
+        if (const auto* compound = std::get_if<Compound>(&shape)) add(*compound, first_part);
         if (const MeshForm* form = mesh_form_of(shape)) add(first_part, *form);
     }
 
@@ -68,8 +66,45 @@ private:
         made.solid_meshes.push_back(mesh);
     }
 
-    static constexpr std::size_t triangles_of_patch = 128;  // as many triangles as a cylinder
-    std::map<const void*, std::uint32_t> meshes_;           // mesh index of cylinders, cones and each hull
+    void add(const Compound& compound, std::uint32_t first_part) {
+        std::vector<std::uint32_t> skinned;
+        for (std::uint32_t i = 0; i < compound.parts.size(); ++i) {
+            const Part& one = compound.parts[i];
+            if (one.role == Role::sensor) continue;
+            if (one.skinned && !parts_ && !compound.skins.empty())
+                skinned.push_back(i);
+            else
+                add(first_part + i, one.shape);
+        }
+        if (!skinned.empty()) add_skins(compound, skinned, first_part);
+    }
+    // In patches, each drawn with the row of one of the parts in whose place it is: a row has one mesh. Equal bodies share them.
+    void add_skins(const Compound& compound, const std::vector<std::uint32_t>& skinned, std::uint32_t first_part) {
+        std::size_t all = 0;
+        std::vector<float> key;
+        const auto placed = [&](vec3 position, vec4 turn) {
+            key.insert(key.end(), {position.x, position.y, position.z, turn.x, turn.y, turn.z, turn.w});
+        };
+        std::vector<const void*> forms;
+        for (const Skin& skin : compound.skins) {
+            all += skin.mesh->form->triangles.size();
+            forms.push_back(skin.mesh->form.get());
+            placed(skin.position, skin.orientation);
+        }
+        for (const std::uint32_t i : skinned) placed(compound.parts[i].position, compound.parts[i].orientation);
+        const std::size_t size = std::max(triangles_of_patch, (all + skinned.size() - 1) / skinned.size());
+        const std::size_t count = (all + size - 1) / size;
+        const auto [first, fresh] =
+            skins_.try_emplace({std::move(forms), std::move(key)}, static_cast<std::uint32_t>(made.meshes.size()));
+        for (std::size_t k = 0; fresh && k < count; ++k)
+            made.meshes.push_back(patch_mesh(compound.skins, k * size, (k + 1) * size, compound.parts[skinned[k]]));
+        for (std::uint32_t k = 0; k < count; ++k) add(first_part + skinned[k], first->second + k);
+    }
+
+    bool parts_;
+    std::map<std::pair<std::vector<const void*>, std::vector<float>>, std::uint32_t> skins_;  // first mesh of each
+    static constexpr std::size_t triangles_of_patch = 128;                                    // as many triangles as a cylinder
+    std::map<const void*, std::uint32_t> meshes_;  // mesh index of cylinders, cones and each hull
     const char cylinders_ = 0, cones_ = 0;
 };
 
@@ -125,10 +160,10 @@ host::ShapeInstances instances_of(const World::Share& share, bool with_still) {
     return std::move(instances.made);
 }
 
-host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
+host::ShapeInstances instances_of(const World& world, const CopiesShown& shown, bool parts) {
     const Scene& scene = world.scene();
     const State& state = world.state();
-    Instances instances;
+    Instances instances(parts);
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
@@ -202,7 +237,7 @@ Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world
 }
 
 std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
-    const host::ShapeInstances instances = instances_of(world_, shown_);
+    const host::ShapeInstances instances = instances_of(world_, shown_, options_.parts);
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);

@@ -16,7 +16,8 @@
 namespace scree::demos {
 
 // Bodies grouped by shape. Of copies of a scene those that are shown; a plane of the first of them is that of all.
-host::ShapeInstances instances_of(const World& world, const CopiesShown& shown = {});
+// `parts`: convex parts in place of skins.
+host::ShapeInstances instances_of(const World& world, const CopiesShown& shown = {}, bool parts = false);
 // Of a share the bodies that the rank moves, and on request those that do not move, which every rank has.
 host::ShapeInstances instances_of(const World::Share& share, bool with_still);
 // Tables of a world that is simulated on the CPU.

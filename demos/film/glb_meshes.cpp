@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <optional>
 #include <variant>
@@ -147,7 +148,19 @@ Drawn MeshCollection::add(const Shape& shape, float plane_reach, vec3 middle) {
     }
     Triangles made;
     std::string key = "compound";
-    for (const Part& part : std::get<Compound>(shape).parts) {
+    const auto& compound = std::get<Compound>(shape);
+    for (const Skin& skin : compound.skins) {
+        const glm::quat turn(skin.orientation.w, skin.orientation.x, skin.orientation.y, skin.orientation.z);
+        for (const MeshForm::Triangle& one : skin.mesh->form->triangles) {
+            for (const vec3& corner : one.corners) made.points.push_back(skin.position + turn * (one.middle + corner));
+            made.normals.insert(made.normals.end(), 3, turn * one.normal);
+        }
+        key += fmt::format(" skin {} {} {} {} {} {} {} {}", static_cast<const void*>(skin.mesh->form.get()), skin.position.x,
+                           skin.position.y, skin.position.z, skin.orientation.x, skin.orientation.y, skin.orientation.z,
+                           skin.orientation.w);
+    }
+    for (const Part& part : compound.parts) {
+        if (part.skinned && !compound.skins.empty()) continue;
         const SharedShape one = std::visit([](const auto& convex) { return shared_shape(convex); }, part.shape);
         append(made, one, part.position, part.orientation);
         key += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", one.key, one.scale.x, one.scale.y, one.scale.z, part.position.x,

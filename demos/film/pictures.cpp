@@ -54,6 +54,7 @@ void show_overlays(const PictureStyle& style, const World& world, host::CanvasOp
     canvas.cells = shows(style, Overlay::cells);
     canvas.joints = shows(style, Overlay::joints);
     canvas.sleep = shows(style, Overlay::sleep);
+    canvas.parts = shows(style, Overlay::parts);
     const physics::Parameters& fixed = world.state().fixed();
     canvas.cell = fixed.cell;
     canvas.step_seconds = fixed.dt;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <numbers>
 
@@ -93,6 +94,24 @@ host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t 
         const MeshForm::Triangle& triangle = form.triangles[k];
         for (const vec3& corner : triangle.corners)
             add(mesh, triangle.middle + corner - form.triangles[first].middle, triangle.normal);
+    }
+    return mesh;
+}
+
+host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, std::size_t last, const Part& part) {
+    const auto turn_of = [](vec4 q) { return glm::quat(q.w, q.x, q.y, q.z); };
+    const glm::quat back = glm::conjugate(turn_of(part.orientation));
+    host::SolidMesh mesh;
+    std::size_t before = 0;
+    for (const Skin& skin : skins) {
+        const glm::quat turn = turn_of(skin.orientation);
+        const std::vector<MeshForm::Triangle>& all = skin.mesh->form->triangles;
+        for (std::size_t k = std::max(first, before); k < std::min(last, before + all.size()); ++k) {
+            const MeshForm::Triangle& one = all[k - before];
+            for (const vec3& corner : one.corners)
+                add(mesh, back * (skin.position + turn * (one.middle + corner) - part.position), back * (turn * one.normal));
+        }
+        before += all.size();
     }
     return mesh;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "compute/scene.h"
 #include "host/canvas/canvas.h"
@@ -13,5 +14,7 @@ host::SolidMesh cone_mesh();                  // radius 1, height 1, about the c
 host::SolidMesh hull_mesh(const Hull& hull);  // the hull must be validated
 // Triangles [first, last) of a mesh, in the frame of the first one's row.
 host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last);
+// The same of all skins of a body one after the other, in the frame of one of its parts.
+host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, std::size_t last, const Part& part);
 
 }  // namespace scree::demos

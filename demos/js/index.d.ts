@@ -42,7 +42,7 @@ export interface SceneClass {
 }
 export interface Scene {
   addBodies(body: Json, count?: number, columns?: Columns): number;
-  add(list: 'joints' | 'vehicles' | 'events' | 'exclusions' | 'cars' | 'carts', item: Json): number;
+  add(list: 'joints' | 'vehicles' | 'events' | 'grains' | 'exclusions' | 'cars' | 'carts', item: Json): number;
   set(key: 'settings' | 'picture' | 'camera' | 'fields' | 'gravity' | 'duration', value: Json): void;
   get(key: string): any;
   count(list: 'bodies' | 'joints' | 'vehicles' | 'events'): number;
@@ -61,6 +61,7 @@ export interface World {
   readonly steps: number;
   readonly time: number; // s
   step(count?: number): void;
+  followDemo(name?: string, options?: { bodies?: number; seed?: number | bigint }): void;
   info(): { steps: number; time: number; bodies: number; bodiesThere: number; joints: number; copies: number; bufferBytes: number;
     recordsEvents: boolean };
   hash(): Hash;

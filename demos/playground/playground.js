@@ -1,12 +1,17 @@
 // The playground's page: the solver runs in a worker (worker.js), and this shows its frames with the viewer's renderer.
 import { chunksOf } from '../viewer/bytes.js';
 import { Camera } from '../viewer/camera.js';
-import { numberText, Palette, QUANTITIES } from '../viewer/colors.js';
+import { numberText, Palette, quantitiesOf } from '../viewer/colors.js';
 import { FrameDecoder } from '../viewer/frames.js';
+import { cameraKey, followPointers } from '../viewer/gestures.js';
+import { drawLegend } from '../viewer/legend.js';
+import { Marks } from '../viewer/marks.js';
 import { add, length, scaled, sub, unit } from '../viewer/math.js';
 import { Pose } from '../viewer/pose.js';
-import { isSoftware, Lines, Renderer, SKIES, WORST_QUALITY } from '../viewer/renderer.js';
+import { Governor } from '../viewer/quality.js';
+import { isSoftware, Lines, Renderer, SKIES } from '../viewer/renderer.js';
 import { DYNAMIC, Scene } from '../viewer/scene.js';
+import { accent, followTheme } from '../viewer/theme.js';
 import record from '../records/hashes.txt';
 import { SHAPES } from './shapes.js';
 
@@ -16,6 +21,8 @@ const STEPS = /after (\d+) steps/.exec(record)[1];
 const GRAVITIES = [[1.62, 'Moon'], [3.72, 'Mars'], [9.81, 'Earth'], [24.79, 'Jupiter']];
 const HAND = 'pointer', KEYS = 'keys';  // what grabs
 const MOST_UNASKED = 1000;              // bodies of a demo that has more by default
+const UNTOLD = ['contact-impulse', 'spin', 'kinetic-energy', 'angular-momentum'];  // of frames
+const SHOWN = ['contacts', 'joints', 'velocities'];
 const FILE = /^[\w-][\w.-]*\.json$/;    // beside this page
 
 class Playground {
@@ -27,14 +34,16 @@ class Playground {
     this.camera = new Camera();
     this.pose = new Pose();
     this.lines = new Lines();
-    this.none = new Lines();  // of joints
+    this.jointLines = new Lines();
+    this.marks = new Marks(this);
+    this.governor = new Governor(this.renderer);
+    this.shows = {};
     this.scene = null;
     this.selected = -1;
     this.grabs = null;        // { hand, place, target }
     this.playing = false;
     this.dirty = false;
     this.frames = this.pictures = 0;
-    this.paces = [];
     this.rates = [];
     this.waiting = new Map();  // for answers of the worker
     this.source = null;
@@ -71,7 +80,7 @@ class Playground {
     this.version = version;
     this.threads = threads;
   }
-  on_opened({ chunks, gravity, source, bodies }) {
+  on_opened({ chunks, gravity, source, bodies, chassis }) {
     this.source = source;
     this.scene = new Scene();
     const all = chunksOf(chunks);
@@ -89,9 +98,12 @@ class Playground {
     this.renderer.sun = head.sun;
     const by = this.palette?.by;
     this.palette = new Palette(head);
+    this.palette.paler = this.shows.contacts ?? false;
     this.fillColors();
     if (by && [...element('color').options].some(({ value }) => value === by)) this.palette.choose(by);
     element('color').value = this.palette.by;
+    drawLegend(this.palette);
+    element('show-joints').disabled = this.scene.joints.length === 0;
     this.pose = new Pose();
     this.selected = -1;
     this.grabs = null;
@@ -105,6 +117,7 @@ class Playground {
       this.showNumbers();
     }
     this.goHome();
+    this.follow(this.scene.bodies.findIndex(({ id }) => id === chassis));
     this.say(`${element('name').textContent}: ${bodies} bodies`);
   }
   on_scene({ chunks }) {
@@ -188,6 +201,8 @@ class Playground {
     for (const [key, id] of [['count', 'count'], ['gravity', 'gravity'], ['friction', 'friction'], ['size', 'size'], ['pace', 'pace']]) number(key, id);
     this.ownCount = asked.has('count');
     for (const [key, id] of [['throw', 'missile'], ['sky', 'sky'], ['speed', 'speed']]) choice(key, id);
+    for (const name of (asked.get('show') ?? '').split(',')) if (SHOWN.includes(name)) element(`show-${name}`).checked = true;
+    this.show();
     if (asked.has('gravity')) this.given.gravity = Number(element('gravity').value);
     if (asked.has('friction')) this.given.friction = Number(element('friction').value);
     this.colorAsked = asked.get('color');
@@ -206,8 +221,10 @@ class Playground {
     for (const key of ['gravity', 'friction']) if (this.given[key] !== undefined) to.set(key, this.given[key]);
     for (const [key, id, usual] of [['throw', 'missile', 'sphere'], ['size', 'size', '0.5'], ['pace', 'pace', '18'], ['sky', 'sky', ''], ['speed', 'speed', '1']])
       if (element(id).value !== usual) to.set(key, element(id).value);
+    const shown = SHOWN.filter((name) => this.shows[name]);
+    if (shown.length > 0) to.set('show', shown);
     if (this.palette && this.palette.by !== this.scene.head.colors.first) to.set('color', this.palette.by);
-    history.replaceState(null, '', `${location.pathname}?${to}`);
+    history.replaceState(null, '', `${location.pathname}?${String(to).replaceAll('%2C', ',')}`);
   }
   async openFile(name) {
     try {
@@ -228,9 +245,18 @@ class Playground {
     const demo = this.demos.find((one) => one.name === name);
     return demo.count ? { demo: name, bodies: this.ownCount ? count : Math.min(demo.count, MOST_UNASKED) } : { demo: name };
   }
+  // A scene of a file or of a text stands in the list while it is the scene.
+  showFile() {
+    const scenes = element('scene'), shown = [...scenes.options].find(({ value }) => value === '(file)');
+    if (!this.file) return shown?.remove();
+    const option = shown ?? scenes.appendChild(new Option('', '(file)'));
+    option.textContent = this.file.name || 'A pasted scene';
+    scenes.value = '(file)';
+  }
   async open() {
+    this.showFile();
     const source = this.chosen(), name = element('scene').value, demo = this.demos.find((one) => one.name === name);
-    const heap = name === '(heap)' && !this.file;
+    const heap = name === '(heap)';
     element('name').textContent = this.file ? this.file.name || 'A pasted scene' : heap ? 'A heap' : name[0].toUpperCase() + name.slice(1);
     element('line').textContent = this.file || heap ? '' : demo.line;
     element('count').disabled = Boolean(this.file) || !(heap || demo.count);
@@ -267,17 +293,35 @@ class Playground {
     element('size-told').textContent = `${element('size').value} m`;
     element('pace-told').textContent = `${element('pace').value} m/s`;
   }
+  // What is drawn over the bodies, as the boxes have it.
+  show() {
+    for (const name of SHOWN) this.shows[name] = element(`show-${name}`).checked;
+    this.tell('show', { shows: { contacts: this.shows.contacts, joints: this.shows.joints } });
+    if (this.palette) {
+      this.palette.paler = this.shows.contacts;
+      this.palette.choose(this.palette.by);
+      drawLegend(this.palette);
+      this.write();
+    }
+    this.change();
+  }
+  toggle(name) {
+    const box = element(`show-${name}`);
+    if (box.disabled) return;
+    box.checked = !box.checked;
+    this.show();
+    this.say(`${name} ${box.checked ? 'shown' : 'not shown'}`);
+  }
   fillColors() {
     const color = element('color'), { palette, scene } = this;
-    color.replaceChildren(...QUANTITIES.filter(([value]) => value !== 'contact-impulse' && value !== 'spin' && value !== 'kinetic-energy'
-      && value !== 'angular-momentum' && (palette.scales[value] || ['sleep', 'body', 'plain'].includes(value)
-      || (value === 'own' && scene.bodies.some((body) => body.color)))).map(([value, text]) => new Option(text, value)));
+    color.replaceChildren(...quantitiesOf(palette, scene).filter(([value]) => !UNTOLD.includes(value)).map(([value, text]) => new Option(text, value)));
     if (![...color.options].some(({ value }) => value === palette.by)) palette.choose('speed');
   }
   chooseColor(value) {
     if (![...element('color').options].some((option) => option.value === value)) return;
     this.palette.choose(value);
     element('color').value = value;
+    drawLegend(this.palette);
     this.say(`coloured by ${value}`);
     this.write();
     this.change();
@@ -297,12 +341,32 @@ class Playground {
   }
 
   // ---- view and hands
+  // The view goes with a body; -1: with none.
+  follow(place) {
+    this.follows = place;
+    this.followed = null;
+    this.change();
+  }
+  toggleFollow() {
+    const on = this.follows !== this.selected && this.selected >= 0;
+    this.follow(on ? this.selected : -1);
+    this.say(on ? `following ${this.scene.bodies[this.selected].label}` : 'following no body');
+  }
+  keepFollowing() {
+    const { follows } = this;
+    if (!(follows >= 0) || !this.pose.exists[follows]) return;
+    const at = this.positionOf(follows);
+    if (this.followed) this.camera.move(sub(at, this.followed));
+    this.followed = at;
+  }
   goHome() {
     const { low, high } = this.scene.head, middle = scaled(add(low, high), 0.5);
     this.camera.set(this.first ?? { eye: add(middle, scaled([0.55, 0.4, 0.75], 1.4 * length(sub(high, low)))), target: middle, fov: 45, orthographic: false });
     this.change();
   }
-  positionOf(place) { return Array.from(this.pose.position.subarray(3 * place, 3 * place + 3)); }
+  takeCamera() {}
+  pan(right, up) { this.camera.pan(right, up); }
+  positionOf(place) { return this.marks.positionOf(place); }
   // The line of sight through a pixel of the page.
   ray(x, y) {
     const { camera, canvas } = this, view = camera.frame(), px = x / canvas.clientWidth * camera.width, py = (1 - y / canvas.clientHeight) * camera.height;
@@ -377,30 +441,24 @@ class Playground {
     pose.shown = 0;
     for (let i = 0; i < frame.count; ++i) pose.shown += pose.exists[i];
     pose.paint(palette, scene, null, null, 1, null, 1);
+    this.keepFollowing();
     this.lines.clear();
+    this.jointLines.clear();
+    const { touching, joints } = frame;
+    if (this.shows.contacts && touching) this.marks.addContacts(this.lines, touching, (i) => touching.force[i]);
+    if (this.shows.joints && joints?.length === scene.joints.length) this.marks.addJoints(this.jointLines, (i) => joints[i] < 0, (i) => joints[i]);
+    if (this.shows.velocities) this.marks.addVelocities(this.lines);
     if (this.grabs?.place >= 0) this.addGrip();
-    const dark = document.documentElement.dataset.theme === 'dark';
-    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.none, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
+    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.jointLines, accent());
     if (this.software) renderer.gl.finish();
     ++this.pictures;
-    this.govern(now);
+    this.governor.drawn(now, this.playing);
     this.tellPace(now);
   }
   addGrip() {
     const { place, target, point } = this.grabs, at = sub(this.positionOf(place), this.camera.eye), to = sub(target ?? point, this.camera.eye);
     this.lines.add(at, to, 1.6, 1, [1, 0.85, 0.2, 1]);
     this.lines.add(to, to, 6, 1, [1, 0.85, 0.2, 1]);
-  }
-  // Lowers the quality while pictures come too slowly.
-  govern(now) {
-    const pace = this.lastDrawn ? now - this.lastDrawn : 0;
-    this.lastDrawn = now;
-    if (!this.playing || pace <= 0 || pace > 2000) return;
-    this.paces.push(pace);
-    if (this.paces.length < (pace > 150 ? 3 : 16)) return;
-    const middle = this.paces.sort((a, b) => a - b)[this.paces.length >> 1];
-    this.paces = [];
-    if (middle > 45 && this.renderer.quality < WORST_QUALITY) ++this.renderer.quality;
   }
   tellPace(now) {
     const { frame, rates } = this;
@@ -466,85 +524,35 @@ class Playground {
     on('ask', 'click', () => element('help').showModal());
     on('paste', 'click', () => element('pasting').showModal());
     on('use', 'click', async () => {
+      const before = [this.file, element('scene').value];
       this.file = { name: '', json: element('text').value };
       element('pasting').close();
-      if (!(await this.open())) this.file = null;
+      if (await this.open()) return;
+      [this.file, element('scene').value] = before;
+      this.showFile();
     });
-    this.setUpTheme();
-    this.setUpView();
+    followTheme(() => this.change());
+    followPointers(this.canvas, this);
+    this.canvas.addEventListener('dblclick', (event) => this.throwAt(event.offsetX, event.offsetY));
     document.addEventListener('keydown', (event) => this.key(event));
-    addEventListener('resize', () => this.change());
-  }
-  setUpTheme() {
-    const theme = element('theme'), dark = matchMedia('(prefers-color-scheme: dark)');
-    try { theme.value = localStorage.getItem('scree-theme') ?? 'auto'; } catch { /* pages may have no storage */ }
-    const show = () => {
-      document.documentElement.dataset.theme = theme.value === 'auto' ? (dark.matches ? 'dark' : 'light') : theme.value;
-      this.change();
-    };
-    dark.addEventListener('change', show);
-    theme.addEventListener('change', () => {
-      try { localStorage.setItem('scree-theme', theme.value); } catch { /* likewise */ }
-      show();
-    });
-    show();
-  }
-
-  setUpView() {
-    const { canvas, camera } = this, held = new Map();
-    let moved = 0, middle = null, gap = 0;
-    const around = () => {
-      const points = [...held.values()], sum = points.reduce((a, p) => [a[0] + p[0], a[1] + p[1]], [0, 0]).map((x) => x / points.length);
-      return [sum, points.length > 1 ? Math.hypot(points[0][0] - points[1][0], points[0][1] - points[1][1]) : 0];
-    };
-    canvas.addEventListener('pointerdown', (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, [event.offsetX, event.offsetY]);
-      if (held.size === 1) {
-        moved = 0;
-        const place = event.button === 0 && !event.shiftKey && this.frame ? this.renderer.pick(camera, event.offsetX, event.offsetY) : -1;
-        if (place >= 0 && this.scene.bodies[place].motion === DYNAMIC) {
-          const { from, along } = this.ray(event.offsetX, event.offsetY);
-          canvas.classList.add('grabs');
-          this.grab(HAND, from, along);
-        }
-        this.change();
-      } else if (this.grabs?.hand === HAND) {
-        this.drop();
-      }
-      [middle, gap] = around();
-    });
-    canvas.addEventListener('pointermove', (event) => {
-      if (!held.has(event.pointerId)) return;
-      held.set(event.pointerId, [event.offsetX, event.offsetY]);
-      if (this.grabs?.hand === HAND) return this.pullTo(event.offsetX, event.offsetY);
-      const [now, wide] = around(), dx = now[0] - middle[0], dy = now[1] - middle[1];
-      moved += Math.abs(dx) + Math.abs(dy) + Math.abs(wide - gap);
-      if (moved < 4) return;
-      if (held.size > 1 || event.buttons & 6 || event.shiftKey) {
-        camera.pan(-dx / canvas.clientHeight, dy / canvas.clientHeight);
-        if (gap > 0 && wide > 0) camera.zoom(gap / wide);
-      } else {
-        camera.orbit(-dx * 0.006, dy * 0.006);
-      }
-      [middle, gap] = [now, wide];
+    addEventListener('resize', () => {
+      if (this.palette) drawLegend(this.palette);
       this.change();
     });
-    const release = (event) => {
-      if (!held.delete(event.pointerId)) return;
-      if (held.size > 0) [middle, gap] = around();
-      if (this.grabs?.hand === HAND) this.drop();
-    };
-    canvas.addEventListener('pointerup', release);
-    canvas.addEventListener('pointercancel', release);
-    canvas.addEventListener('dblclick', (event) => this.throwAt(event.offsetX, event.offsetY));
-    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-    canvas.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      camera.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY * (event.deltaMode === 1 ? 16 : 1))) * 0.003));
-      this.change();
-    }, { passive: false });
+    for (const name of SHOWN) on(`show-${name}`, 'change', () => this.show());
   }
+  // A drag that begins on a body that moves pulls it.
+  beginDrag(event) {
+    const { offsetX: x, offsetY: y } = event, place = event.button === 0 && !event.shiftKey && this.frame ? this.renderer.pick(this.camera, x, y) : -1;
+    this.change();
+    if (place < 0 || this.scene.bodies[place].motion !== DYNAMIC) return false;
+    const { from, along } = this.ray(x, y);
+    this.canvas.classList.add('grabs');
+    this.grab(HAND, from, along);
+    return true;
+  }
+  drag(event) { this.pullTo(event.offsetX, event.offsetY); }
+  endDrag() { if (this.grabs?.hand === HAND) this.drop(); }
 
   key(event) {
     const on = event.target, inView = on === this.canvas || on === document.body, { camera } = this;
@@ -556,28 +564,28 @@ class Playground {
       this.change();
     };
     const arrows = { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, 1], PageDown: [0, 0, -1] }[event.key];
-    if (inView && arrows) {
+    if (inView && arrows && this.grabs?.place >= 0) {
       const [right, up, away] = arrows;
-      if (this.grabs?.place >= 0)
-        return takes(() => {
-          const axes = camera.axes(), size = 0.02 * camera.distance;
-          let target = add(this.grabs.target ?? this.grabs.point, add(scaled(axes.right, right * size), scaled(axes.up, up * size)));
-          target = add(target, scaled(axes.back, -away * size));
-          this.moveHand(target);
-        });
-      if (away) return;
-      return takes(() => (event.shiftKey ? camera.pan(0.04 * right, 0.04 * up) : camera.orbit(0.08 * right, 0.08 * up)));
+      return takes(() => {
+        const axes = camera.axes(), size = 0.02 * camera.distance;
+        let target = add(this.grabs.target ?? this.grabs.point, add(scaled(axes.right, right * size), scaled(axes.up, up * size)));
+        target = add(target, scaled(axes.back, -away * size));
+        this.moveHand(target);
+      });
     }
+    const moves = cameraKey(event, inView, this);
+    if (moves) return takes(moves);
     if (inView && event.key === 'Home') return takes(() => this.goHome());
     if (on.matches?.('input[type="range"]') && /^(Arrow|Page|Home|End)/.test(event.key)) return;
-    if (event.key === ' ' && !on.matches?.('button')) return takes(() => this.setPlaying(!this.playing));
+    if (event.key === ' ' && !on.matches?.('button, input[type="checkbox"]')) return takes(() => this.setPlaying(!this.playing));
     const work = {
-      '+': () => camera.zoom(0.88), '=': () => camera.zoom(0.88), '-': () => camera.zoom(1 / 0.88), '.': () => this.step(), '?': () => element('help').showModal(),
+      '.': () => this.step(), '?': () => element('help').showModal(),
       escape: () => {
         this.drop();
         this.select(-1);
       },
-      n: () => this.selectNext(1), p: () => this.selectNext(-1), g: () => this.grabChosen(), t: () => this.throwAt(), r: () => this.open(),
+      f: () => this.toggleFollow(), n: () => this.selectNext(1), p: () => this.selectNext(-1), g: () => this.grabChosen(), t: () => this.throwAt(), r: () => this.open(),
+      k: () => this.toggle('contacts'), j: () => this.toggle('joints'), v: () => this.toggle('velocities'),
       c: () => {
         const { options, selectedIndex } = element('color');
         this.chooseColor(options[(selectedIndex + 1) % options.length].value);
@@ -591,9 +599,10 @@ class Playground {
     const body = this.scene?.bodies[this.selected];
     return { ready: Boolean(this.frame), pictures: this.pictures, frames: this.frames, steps: this.frame?.steps ?? 0, time: this.frame?.time ?? 0,
       bodies: this.pose.shown ?? 0, sleepers: this.frame?.sleepers ?? 0, playing: this.playing, threads: this.threads, checked: this.checked,
-      picked: body ? body.label : null, grabs: this.grabs?.place ?? -1, source: this.source, given: { ...this.given }, eye: [...this.camera.eye],
+      picked: body ? body.label : null, grabs: this.grabs?.place ?? -1, follows: this.follows ?? -1, source: this.source, given: { ...this.given }, eye: [...this.camera.eye],
       stepMs: this.frame?.stepMs ?? 0, late: this.frame?.late ?? 0, stepsPerSecond: this.stepsPerSecond ?? 0, quality: this.renderer.quality,
-      color: this.palette?.by, troubles: this.troubles };
+      color: this.palette?.by, troubles: this.troubles, shown: { ...this.shows }, touching: this.frame?.touching?.count ?? 0,
+      lines: this.lines.count, jointLines: this.jointLines.count };
   }
   async hash() {
     this.tell('hash');

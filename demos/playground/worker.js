@@ -8,10 +8,13 @@ import { SHAPES } from './shapes.js';
 
 const MOST_THROWN = 60, BUFFERS = 2, LONGEST = 0.1;  // s, of time that is caught up with
 const CHECKED_STEPS = 12, CHECKED_BODIES = 300;      // as of demos/records/hashes.txt
-const SCRIPTED = ['fountain'];                       // whose bodies are born by a script of the program
+const MOST_POINTS = 20000;                           // of contacts in a frame
+const SCRIPTED = ['fountain'];                       // whose bodies come and go during a run
 
 let scree, counts;  // of demos whose number of bodies may be chosen: the usual one
+let followed;                                        // whether the world's demo is scripted
 let world, live, drawn, placeOf, views, thrown, grips, settings, buffers = [], rate = 60;
+let shows = { contacts: false, joints: false };
 let playing = false, speed = 1, due = 0, timer = null, wantsFrame = true;
 let spent = [], lateSteps = 0;
 const tell = (kind, more = {}, moved = []) => postMessage({ kind, ...more }, moved);
@@ -59,18 +62,45 @@ function frame() {
   }
   return { buffer: room, count, sleepers };
 }
+// Points that touch: places, points, normals, forces (N).
+function touching() {
+  const points = [];
+  for (const { a, b, normal, count, position, force } of world.contacts())
+    for (let k = 0; k < count && points.length < MOST_POINTS; ++k) if (force[k] > 0) points.push([placeOf[a], placeOf[b], position[k], normal, force[k]]);
+  return { count: points.length, a: Int32Array.from(points, ([a]) => a), b: Int32Array.from(points, ([, b]) => b),
+    point: Float32Array.from(points.flatMap(([, , at]) => at)), normal: Float32Array.from(points.flatMap(([, , , normal]) => normal)),
+    force: Float32Array.from(points, ([, , , , force]) => force) };
+}
+// Forces of joints, N; below 0: it is broken.
+const jointForces = () => Float32Array.from(world.joints(), ({ force, broken }) => (broken ? -1 : Math.hypot(...force)));
+
 function send() {
   const sent = frame();
   wantsFrame = sent === null;
   if (!sent) return;
   const pace = spent.length ? [...spent].sort((a, b) => a - b) : [0];
-  tell('frame', { ...sent, steps: world.steps, time: world.time, stepMs: pace[pace.length >> 1], slowestMs: pace[pace.length - 1], late: lateSteps },
+  const more = { touching: shows.contacts ? touching() : null, joints: shows.joints ? jointForces() : null };
+  tell('frame', { ...sent, ...more, steps: world.steps, time: world.time, stepMs: pace[pace.length >> 1], slowestMs: pace[pace.length - 1], late: lateSteps },
     [sent.buffer]);
+}
+function follow(of, { demo, bodies = 0 }) {
+  if (SCRIPTED.includes(demo)) of.followDemo(demo, { bodies });
+  return SCRIPTED.includes(demo);
+}
+// One step, and the bodies that were born in it.
+function advance() {
+  if (followed) dropViews();
+  world.step();
+  if (!followed) return;
+  const chunks = live.take();
+  if (chunks.length === 0) return;
+  take(chunks);
+  tell('scene', { chunks: chunks.slice() });
 }
 function step(count) {
   for (let i = 0; i < count; ++i) {
     const begun = performance.now();
-    world.step();
+    advance();
     spent.push(performance.now() - begun);
     if (spent.length > 60) spent.shift();
   }
@@ -116,11 +146,13 @@ function apply(given) {
 const asked = {
   async open({ source, given }) {
     const scene = sceneOf(source), made = new scree.World(scene, source.heap ? {} : undefined);
+    const chassis = source.json !== undefined && scene.count('vehicles') > 0 ? scene.get('scene').vehicles[0].chassis : undefined;
     scene.dispose();
     dropViews();
     live?.dispose();
     world?.dispose();
     world = made;
+    followed = follow(world, source);
     live = world.record({ live: 1, fps: 60, contacts: -1 });
     drawn = new Drawn();
     [thrown, grips, spent, lateSteps] = [[], new Map(), [], 0];
@@ -131,7 +163,7 @@ const asked = {
     const chunks = live.take(true);
     take(chunks);
     due = performance.now() / 1000;
-    tell('opened', { chunks, gravity, friction: settings.friction_factor ?? 1, bodies: world.count('bodies_there'), source });
+    tell('opened', { chunks, gravity, friction: settings.friction_factor ?? 1, bodies: world.count('bodies_there'), source, chassis });
     send();
     if (playing) plan();
   },
@@ -144,6 +176,10 @@ const asked = {
   step({ count }) {
     step(count);
     send();
+  },
+  show({ shows: wanted }) {
+    shows = wanted;
+    if (world && !playing) send();
   },
   speed({ value }) {
     speed = value;
@@ -196,9 +232,10 @@ const asked = {
   },
   // The hash after some steps of a world of its own, whatever happens in the one that is shown.
   check({ source }) {
-    const scene = sceneOf(source.demo ? { demo: source.demo, bodies: counts.has(source.demo) ? CHECKED_BODIES : 0 } : source), begun = performance.now();
-    const other = new scree.World(scene);
+    const checked = source.demo ? { demo: source.demo, bodies: counts.has(source.demo) ? CHECKED_BODIES : 0 } : source;
+    const scene = sceneOf(checked), begun = performance.now(), other = new scree.World(scene);
     try {
+      follow(other, checked);
       other.step(CHECKED_STEPS);
       tell('checked', { source, hash: other.hash(), bodies: other.count('bodies_there'), ms: performance.now() - begun });
     } finally {
@@ -215,7 +252,7 @@ const asked = {
     const times = [];
     for (let i = 0; i < count; ++i) {
       const begun = performance.now();
-      world.step();
+      advance();
       times.push(performance.now() - begun);
     }
     tell('measured', { times });
@@ -236,7 +273,7 @@ onmessage = async ({ data }) => {
       for (let i = 0; i < BUFFERS; ++i) buffers.push(new ArrayBuffer(0));
       scree.command(['list']);
       counts = new Map(lines.map((line) => line.trim().split(/\s+/)).filter(([, , word]) => word === '--bodies').map(([name, count]) => [name, Number(count)]));
-      const demos = scree.describe('demos').filter(([name]) => !SCRIPTED.includes(name)).map(([name, line]) => ({ name, line, count: counts.get(name) ?? 0 }));
+      const demos = scree.describe('demos').map(([name, line]) => ({ name, line, count: counts.get(name) ?? 0 }));
       return tell('ready', { version: scree.version, threads: scree.threads, demos });
     }
     await asked[data.kind](data);

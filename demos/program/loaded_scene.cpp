@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "compute/scene/decomposed.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
 #include "compute/schema/settings.h"
@@ -91,6 +92,13 @@ void set_bounds(LoadedScene& subject) {
         subject.low = glm::min(subject.low, sphere.position - sphere.radius);
         subject.high = glm::max(subject.high, sphere.position + sphere.radius);
     }
+    for (const TimedEvent& event : subject.events) {
+        const auto* pour = std::get_if<PourEvent>(&event.action);
+        if (!pour) continue;
+        const GrainBox box = box_about(pour->grains.region);
+        subject.low = glm::min(subject.low, box.low);
+        subject.high = glm::max(subject.high, box.high);
+    }
 }
 
 bool are_default(const Settings& settings) {
@@ -140,11 +148,12 @@ SceneDocument document_of_file(const SceneOptions& options, std::vector<std::str
         return scene_from_json(edited(scene_to_json(imported), options.edits), most_bodies());
     }
     return scene_from_text(edited(host::read_text(path), options.edits), path.parent_path(), most_bodies(),
-                           options.imported.allow_outside);
+                           options.imported.allow_outside, &notes);
 }
 
 LoadedScene from_file(const SceneOptions& options) {
     const std::string& path = options.name;
+    tell_of_decompositions([](const std::string& what, double done) { say("scree: {}: {:.0f}%\n", what, 100 * done); });
     LoadedScene subject;
     try {
         std::vector<std::string> notes, of_scene;
@@ -179,6 +188,7 @@ void edit(LoadedScene& subject, const std::vector<SceneEdit>& edits) {
         subject.scene = checked(std::move(changed.scene));
         if (changed.settings) subject.of_scene = *changed.settings;
         if (changed.duration > 0) subject.seconds = static_cast<double>(changed.duration);
+        subject.measures = std::move(changed.measures);
     } catch (const SceneError& error) {
         throw UsageError(subject.name + ", changed by --set: " + error.what());
     }
@@ -205,6 +215,7 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
     LoadedScene subject;
     subject.name = std::move(name);
     subject.scene = checked(std::move(document.scene), notes);
+    subject.events = std::move(document.events);
     set_bounds(subject);
     subject.viewpoint = view_of(subject.low, subject.high, 30, 20);
     subject.viewpoint.fit = true;
@@ -216,7 +227,7 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
         subject.style = *document.picture;
     else if (std::ranges::any_of(subject.scene.bodies, colored))
         subject.style.color = ShownQuantity::own;
-    subject.events = std::move(document.events);
+    subject.measures = std::move(document.measures);
     return subject;
 }
 
@@ -229,7 +240,7 @@ std::string LoadedScene::title() const {
 }
 
 SceneDocument document_of(const LoadedScene& subject) {
-    SceneDocument document{subject.scene, subject.viewpoint, {}, 0, {}, subject.events};
+    SceneDocument document{subject.scene, subject.viewpoint, {}, 0, {}, subject.events, {}, subject.measures};
     if (!are_default(subject.of_scene)) document.settings = subject.of_scene;
     if (subject.seconds != LoadedScene{}.seconds) document.duration = static_cast<float>(subject.seconds);
     if (!(subject.style == PictureStyle{})) document.picture = subject.style;
@@ -240,6 +251,9 @@ SceneDocument document_of(const LoadedScene& subject, const World& world, std::o
     SceneDocument document = document_of(subject);
     document.scene = copy ? world.snapshot_of(*copy) : world.snapshot();
     document.events = coming_events(subject.events, world);
+    // Bodies that broke are numbered anew.
+    if (document.measures && std::ranges::any_of(world.scene().bodies, [](const Body& body) { return body.piece_of != no_body; }))
+        document.measures->bodies.clear();
     return document;
 }
 
@@ -253,7 +267,7 @@ const Demo& demo_named(const SceneOptions& options) {
         const std::string near = nearest(options.name, names);
         throw UsageError(
             fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json, .xml, .mjcf, .urdf, "
-                        ".gltf, .glb, .stl or .obj",
+                        ".gltf, .glb, .usda, .usdc, .usdz, .stl or .obj",
                         options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
     }
     if (options.bodies && !demo->takes_bodies) {

@@ -28,7 +28,8 @@ struct LoadedScene {
     Settings of_scene{};               // the scene's own
     Script before_step{};
     PictureStyle style{};
-    std::vector<TimedEvent> events{};  // of a scene file; before_step performs them
+    std::vector<TimedEvent> events{};          // of a scene file; before_step performs them
+    std::optional<MeasureRequest> measures{};  // likewise
     // Of load_streamed(): the bodies behind those of `scene`; none if null.
     std::function<void(const TakeBody& take)> others{};
     StreamedScene streamed() const { return {scene, others}; }

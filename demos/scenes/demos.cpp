@@ -39,6 +39,8 @@ const std::vector<Demo>& all_demos() {
         {"ring", "a round wall of bricks stands", 2200, true, ring},
         {"gables", "rows of gables, triangular walls of 496 bricks, stand", 1984, true, gables},
         {"net", "a net of balls on joints falls over a round post", 900, true, net},
+        {"hopper", "grains by a sieve curve run out of a hopper, at a constant rate", 4000, true, hopper},
+        {"ballast", "a sleeper on railway ballast bears a load that comes and goes", 3000, true, ballast},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},

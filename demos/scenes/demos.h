@@ -81,6 +81,8 @@ DemoScene cars(const DemoOptions&);
 DemoScene ring(const DemoOptions&);
 DemoScene gables(const DemoOptions&);
 DemoScene net(const DemoOptions&);
+DemoScene hopper(const DemoOptions&);
+DemoScene ballast(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);

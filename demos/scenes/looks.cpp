@@ -61,6 +61,8 @@ const std::vector<Look>& looks() {
         {"gables", by(contact_impulse, 260)},
         {"net", by(height)},
         {"fountain", by(speed, 9)},
+        {"hopper", by(speed, 5)},
+        {"ballast", by(contact_impulse, 20)},
     };
     return all;
 }

@@ -49,11 +49,15 @@ def faults_of(site: Path) -> List[str]:
             if re.match(r"[a-z]+:", link) or (name == "404.html" and link.startswith("/")):
                 continue
             path, _, anchor = link.partition("#")
+            path, _, query = path.partition("?")
             target = posixpath.normpath(posixpath.join(posixpath.dirname(name), unquote(path))) if path else name
             if target in (".", ""):
                 target = "index.html"
+            scene = re.match(r"scene=([^&]*)", query)
             if not (site / target).is_file():
                 faults.append(f"{name}: {link}: there is no {target}")
+            elif scene and not (site / posixpath.dirname(target) / unquote(scene[1])).is_file():
+                faults.append(f"{name}: {link}: there is no scene {scene[1]} beside {target}")
             elif target in pages and unquote(anchor) not in pages[target].anchors and not target.startswith("recordings/"):
                 faults.append(f"{name}: {link}: {target} has no such anchor")
     for file in sorted(site.rglob("*.css")):

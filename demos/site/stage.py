@@ -75,8 +75,18 @@ class Stage:
         lines += [f"| [{header}](cpp/{book.header_page(header)[8:]}) | {doxygen_pages.first_sentence(header)} |" for header in book.public_headers()]
         self.write("api/index.md", "\n".join(lines) + "\n")
 
-    def add_lessons(self, folder: Optional[Path], recordings: Optional[Path]) -> None:
-        """Each lesson's script, of a folder where they were run their pictures and scene files, and recordings of these."""
+    def add_playground(self, folder: Optional[Path]) -> None:
+        """Its files as they are; its page of the guide opens it."""
+        if not folder:
+            return
+        shutil.copytree(folder, self.docs / "playground")
+        page = self.docs / "guide" / "playground.md"
+        title, rest = page.read_text(encoding="utf-8").split("\n", 1)
+        page.write_text(f"{title}\n\n**[Open the playground](../playground/index.html)**\n{rest}", encoding="utf-8")
+
+    def add_lessons(self, folder: Optional[Path], recordings: Optional[Path], has_playground: bool) -> None:
+        """Each lesson's script, of a folder where they were run their pictures and scene files, and recordings of these.
+        Scene files are beside the playground, too, which opens no others."""
         for name in lessons.names():
             self.write(f"lessons/{name}.py", lessons.script_of(name))
             scene = folder / f"{name}.json" if folder else None
@@ -86,14 +96,19 @@ class Stage:
             if scene and scene.exists():
                 self.copy(scene, f"lessons/{name}.json")
                 files.append(f"[the scene as a file]({name}.json)")
+                if has_playground:
+                    self.copy(scene, f"playground/{name}.json")
             if recordings and (recordings / f"lesson-{name}.html").exists():
                 self.copy(recordings / f"lesson-{name}.html", f"recordings/lesson-{name}.html")
                 files.append(f"[the scene as a recording](../recordings/lesson-{name}.html), to be turned and paused")
             page = self.docs / "lessons" / f"{name}.md"
-            page.write_text(page.read_text(encoding="utf-8") + f"\nDownload: {', '.join(files)}.\n", encoding="utf-8")
+            text = page.read_text(encoding="utf-8")
+            if scene and scene.exists() and has_playground:
+                text += f"\n**[Open in the playground](../playground/index.html?scene={name}.json)**: the scene of this lesson, in your browser.\n"
+            page.write_text(text + f"\nDownload: {', '.join(files)}.\n", encoding="utf-8")
 
-    def add_recordings(self, folder: Optional[Path]) -> None:
-        """The pictures of the gallery open the recordings of their demos."""
+    def add_recordings(self, folder: Optional[Path], has_playground: bool) -> None:
+        """The pictures of the gallery open the recordings of their demos, the names below the playground."""
         page = self.docs / "guide" / "gallery.md"
         text = page.read_text(encoding="utf-8")
         for recording in sorted(folder.glob("*.html")) if folder else ():
@@ -104,8 +119,12 @@ class Stage:
                 self.faults.append(f"{recording.name}: the gallery has no picture of that demo")
             self.copy(recording, f"recordings/{recording.name}")
             text = text.replace(picture, f"[{picture}](../recordings/{recording.name} \"{recording.stem}: watch its recording\")")
-        if folder:
-            text = text.replace("\n| | | |\n", "\nA picture opens the recording of its run, to be turned and paused.\n\n| | | |\n", 1)
+        told = ["A picture opens the recording of its run, to be turned and paused."] if folder else []
+        if has_playground:
+            text = re.sub(r"(\.jpg\)\S* (?:\"[^\"]*\"\) )?)`(\w+)`", r"\1[`\2`](../playground/index.html?demo=\2)", text)
+            told.append("A name opens the demo in [the playground](playground.md).")
+        if told:
+            text = text.replace("\n| | | |\n", f"\n{' '.join(told)}\n\n| | | |\n", 1)
         page.write_text(text, encoding="utf-8")
 
     def navigation(self) -> List[Any]:
@@ -132,12 +151,14 @@ def main() -> int:
     parser.add_argument("--reference", type=Path, required=True, help="the XML of doxygen")
     parser.add_argument("--lessons", type=Path, help="pictures and scene files of lessons that were run")
     parser.add_argument("--recordings", type=Path, help="NAME.html of demos")
+    parser.add_argument("--playground", type=Path, help="the playground, as demos/playground/build makes it")
     given = parser.parse_args()
     stage = Stage(given.folder)
     stage.add_pages()
     stage.add_reference(given.reference)
-    stage.add_lessons(given.lessons, given.recordings)
-    stage.add_recordings(given.recordings)
+    stage.add_playground(given.playground)
+    stage.add_lessons(given.lessons, given.recordings, bool(given.playground))
+    stage.add_recordings(given.recordings, bool(given.playground))
     for name in ("style.css", "scree.svg", "worker.js"):
         stage.copy(Path(__file__).parent / name, f"assets/{name}")
     configuration = (Path(__file__).parent / "mkdocs.yml").read_text(encoding="utf-8")

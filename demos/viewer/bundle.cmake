@@ -5,7 +5,7 @@ set(length 0)
 if(ESBUILD)
     file(MAKE_DIRECTORY ${WORK})
     foreach(made main.js style.css)
-        execute_process(COMMAND ${ESBUILD} ${SOURCE}/${made} --bundle --minify --charset=utf8 --log-level=warning --target=es2020
+        execute_process(COMMAND ${ESBUILD} ${SOURCE}/${made} --bundle --minify --charset=utf8 --log-level=warning --target=es2020 --loader:.h=text
                                 --outfile=${WORK}/${made} RESULT_VARIABLE failed)
         if(failed)
             message(FATAL_ERROR "esbuild does not bundle ${SOURCE}/${made}")
@@ -17,6 +17,13 @@ if(ESBUILD)
         set(${result} "${hex}" PARENT_SCOPE)
     endfunction()
     hex_of(${SOURCE}/page.html page)
+    file(GLOB parts ${SOURCE}/parts/*.html)
+    foreach(part ${parts})
+        get_filename_component(name ${part} NAME_WE)
+        string(HEX "<!-- part: ${name} -->\n" mark)
+        hex_of(${part} text)
+        string(REPLACE "${mark}" "${text}" page "${page}")
+    endforeach()
     hex_of(${WORK}/main.js script)
     hex_of(${WORK}/style.css style)
     # "/*script*/" and "/*style*/".
@@ -28,7 +35,7 @@ if(ESBUILD)
     string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${page}")
 endif()
 set(text "// The page of the viewer. Made by demos/viewer/bundle.cmake.
-#include \"demos/film/viewer_page.h\"
+#include \"demos/film/pages/viewer_page.h\"
 
 namespace scree::demos {
 namespace {

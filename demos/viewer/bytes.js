@@ -1,4 +1,4 @@
-// Reads the numbers of chunks, as demos/film/chunk_bytes.h writes them.
+// Reads the numbers of chunks, as demos/film/pages/chunk_bytes.h writes them.
 
 const texts = new TextDecoder();
 

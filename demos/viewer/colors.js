@@ -13,6 +13,9 @@ export const QUANTITIES = [
   ['angular-momentum', 'Spin momentum'], ['height', 'Height'], ['contact-impulse', 'Contact impulse'],
   ['sleep', 'Asleep'], ['body', 'Body'], ['own', 'Own colours'], ['plain', 'Plain'],
 ];
+// Those that a scene can be coloured by.
+export const quantitiesOf = (palette, scene) => QUANTITIES.filter(([value]) => palette.scales[value] || ['sleep', 'body', 'plain'].includes(value)
+  || (value === 'own' && scene.bodies.some((body) => body.color)));
 
 // Distinct colours: hues spaced by the golden ratio, of similar lightness.
 export function nameColor(n) {

@@ -1,7 +1,10 @@
 // The page's controls: buttons, keys, pointers, panels. They tell the player what to do, and show what it tells.
-import { numberText, QUANTITIES } from './colors.js';
+import { numberText, QUANTITIES, quantitiesOf } from './colors.js';
+import { cameraKey, followPointers } from './gestures.js';
 import { drawEvents, drawGraph } from './graphs.js';
+import { drawLegend } from './legend.js';
 import { SKIES } from './renderer.js';
+import { followTheme } from './theme.js';
 
 const element = (id) => document.getElementById(id);
 const SPEEDS = ['0.1', '0.25', '0.5', '1', '2', '4'];
@@ -11,9 +14,12 @@ const clock = (seconds) => seconds.toFixed(2);
 export class Controls {
   constructor(player) {
     this.player = player;
-    this.dark = matchMedia('(prefers-color-scheme: dark)');
     this.said = '';
-    this.setUpTheme();
+    followTheme(() => {
+      this.colors = null;
+      this.drawMarks();
+      player.change();
+    });
     this.setUpBar();
     this.setUpSettings();
     this.setUpPicked();
@@ -30,24 +36,6 @@ export class Controls {
     if (text !== this.said) element('status').textContent = this.said = text;
   }
 
-  setUpTheme() {
-    let kept = 'auto';
-    try { kept = localStorage.getItem('scree-theme') ?? 'auto'; } catch { /* pages of files may have no storage */ }
-    const theme = element('theme');
-    theme.value = kept;
-    const show = () => {
-      document.documentElement.dataset.theme = theme.value === 'auto' ? (this.dark.matches ? 'dark' : 'light') : theme.value;
-      this.colors = null;
-      this.drawMarks?.();
-      this.player.change();
-    };
-    this.dark.addEventListener('change', show);
-    theme.addEventListener('change', () => {
-      try { localStorage.setItem('scree-theme', theme.value); } catch { /* likewise */ }
-      show();
-    });
-    document.documentElement.dataset.theme = theme.value === 'auto' ? (this.dark.matches ? 'dark' : 'light') : theme.value;
-  }
   themeColors() {
     if (!this.colors) {
       const style = getComputedStyle(document.documentElement), of = (name) => style.getPropertyValue(name).trim();
@@ -107,10 +95,7 @@ export class Controls {
     const { player } = this, { scene, palette } = player, { head } = scene;
     const color = element('color'), names = element('names'), known = new Set();
     color.replaceChildren();
-    for (const [value, text] of QUANTITIES) {
-      const usable = palette.scales[value] || ['sleep', 'body', 'plain'].includes(value) || (value === 'own' && scene.bodies.some((body) => body.color));
-      if (usable) color.append(new Option(text, value));
-    }
+    for (const [value, text] of quantitiesOf(palette, scene)) color.append(new Option(text, value));
     color.value = palette.by;
     element('sky').value = player.renderer.sky;
     for (const name of SHOWN) {
@@ -146,47 +131,7 @@ export class Controls {
     player.change();
   }
 
-  drawLegend() {
-    const { palette } = this.player, legend = element('legend'), { scale } = palette;
-    legend.hidden = !scale;
-    if (!scale) return;
-    element('legend-title').textContent = scale.title;
-    element('legend-unit').textContent = [scale.unit, scale.scale === 'root' ? 'root scale' : scale.scale === 'log' ? 'log scale' : ''].filter(Boolean).join(', ');
-    const bar = element('legend-bar'), context = bar.getContext('2d'), image = context.createImageData(256, 1);
-    for (let i = 0; i < 256; ++i) {
-      const word = palette.table[i];
-      for (let k = 0; k < 3; ++k) {
-        const linear = ((word >>> 8 * k & 255) / 255) ** 2;
-        image.data[4 * i + k] = Math.round(255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055));
-      }
-      image.data[4 * i + 3] = 255;
-    }
-    context.putImageData(image, 0, 0);
-    const ticks = element('legend-ticks'), width = ticks.clientWidth || 290;
-    let values = [], texts = [];
-    for (let most = 6; most > 1; --most) {
-      values = scale.ticks(most);
-      texts = values.map((value) => numberText(value));
-      // Labels as they will lie, those at the ends within the bar.
-      let end = -Infinity;
-      const apart = values.every((value, i) => {
-        const half = 3.9 * texts[i].length, at = scale.place(value), middle = at < 0.04 ? half : at > 0.96 ? width * at - half : width * at;
-        const free = middle - half > end + 6;
-        end = middle + half;
-        return free;
-      });
-      if (apart) break;
-    }
-    ticks.replaceChildren(...values.map((value, i) => {
-      const tick = document.createElement('span'), place = scale.place(value);
-      tick.textContent = texts[i];
-      tick.style.left = `${100 * place}%`;
-      if (place < 0.04) tick.className = 'first';
-      if (place > 0.96) tick.className = 'last';
-      return tick;
-    }));
-    legend.setAttribute('aria-label', `Colours: ${scale.title}, ${scale.unit}, from ${numberText(scale.low)} to ${numberText(scale.high)}`);
-  }
+  drawLegend() { drawLegend(this.player.palette); }
   drawMarks() {
     const { source } = this.player;
     drawEvents(element('marks'), this.player.scene.events, Math.max(source.seconds * (source.count - 1), 1e-9), this.themeColors());
@@ -258,48 +203,8 @@ export class Controls {
   }
 
   setUpView() {
-    const { player } = this, view = element('view'), held = new Map();
-    let moved = 0, middle = null, gap = 0;
-    const around = () => {
-      const points = [...held.values()], sum = points.reduce((a, p) => [a[0] + p[0], a[1] + p[1]], [0, 0]).map((x) => x / points.length);
-      return [sum, points.length > 1 ? Math.hypot(points[0][0] - points[1][0], points[0][1] - points[1][1]) : 0];
-    };
-    view.addEventListener('pointerdown', (event) => {
-      view.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, [event.offsetX, event.offsetY]);
-      if (held.size === 1) moved = 0;
-      [middle, gap] = around();
-    });
-    view.addEventListener('pointermove', (event) => {
-      if (!held.has(event.pointerId)) return;
-      held.set(event.pointerId, [event.offsetX, event.offsetY]);
-      const [now, wide] = around(), dx = now[0] - middle[0], dy = now[1] - middle[1];
-      moved += Math.abs(dx) + Math.abs(dy) + Math.abs(wide - gap);
-      if (moved < 4) return;
-      player.takeCamera();
-      if (held.size > 1 || event.buttons & 6 || event.shiftKey) {
-        player.pan(-dx / view.clientHeight, dy / view.clientHeight);
-        if (gap > 0 && wide > 0) player.camera.zoom(gap / wide);
-      } else {
-        player.camera.orbit(-dx * 0.006, dy * 0.006);
-      }
-      [middle, gap] = [now, wide];
-      player.change();
-    });
-    const release = (event) => {
-      if (!held.delete(event.pointerId)) return;
-      if (held.size > 0) [middle, gap] = around();
-      if (event.type === 'pointerup' && held.size === 0 && moved < 4 && event.button === 0) player.pickAt(event.offsetX, event.offsetY);
-    };
-    view.addEventListener('pointerup', release);
-    view.addEventListener('pointercancel', release);
-    view.addEventListener('contextmenu', (event) => event.preventDefault());
-    view.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      player.takeCamera();
-      player.camera.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY * (event.deltaMode === 1 ? 16 : 1))) * 0.003));
-      player.change();
-    }, { passive: false });
+    const { player } = this;
+    followPointers(element('view'), player);
   }
 
   key(event) {
@@ -310,29 +215,17 @@ export class Controls {
       event.preventDefault();
       work();
     };
-    const move = (right, up) => takes(() => {
-      player.takeCamera();
-      if (event.shiftKey) player.pan(0.04 * right, 0.04 * up); else player.camera.orbit(0.08 * right, 0.08 * up);
-      player.change();
-    });
-    const zoom = (factor) => takes(() => {
-      player.takeCamera();
-      player.camera.zoom(factor);
-      player.change();
-    });
     const speed = element('speed');
     const faster = (by) => takes(() => {
       speed.value = SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(speed.value) + by))];
       speed.dispatchEvent(new Event('change'));
       this.say(`speed ${speed.value}`);
     });
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    if (inView && arrows[event.key]) return move(...arrows[event.key]);
+    const moves = cameraKey(event, inView, player);
+    if (moves) return takes(moves);
     if (inView && event.key === 'Home') return takes(() => player.goHome());
     if (event.key === ' ' && !on.matches?.('button, input[type="checkbox"]')) return takes(() => player.setPlaying(!player.playing));
     switch (event.key) {
-      case '+': case '=': return zoom(0.88);
-      case '-': return zoom(1 / 0.88);
       case ',': return takes(() => player.seek(Math.ceil(player.frame) - 1));
       case '.': return takes(() => player.seek(Math.floor(player.frame) + 1));
       case '[': return faster(-1);

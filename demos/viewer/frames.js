@@ -1,4 +1,4 @@
-// Decodes frames: repeats the arithmetic of demos/film/frame_encoder.cpp bit for bit.
+// Decodes frames: repeats the arithmetic of demos/film/pages/frame_encoder.cpp bit for bit.
 import { Reader } from './bytes.js';
 
 function grown(array, length) {

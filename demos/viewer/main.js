@@ -4,15 +4,16 @@ import { Palette } from './colors.js';
 import { Controls } from './controls.js';
 import { BodyHistory } from './graphs.js';
 import { openLive } from './live.js';
-import { add, dot, length, rotated, scaled, sub, unit } from './math.js';
+import { Marks } from './marks.js';
+import { add, length, scaled, sub } from './math.js';
 import { Pose } from './pose.js';
-import { isSoftware, Lines, Renderer, WORST_QUALITY } from './renderer.js';
+import { Governor } from './quality.js';
+import { isSoftware, Lines, Renderer } from './renderer.js';
 import { FIXED } from './scene.js';
 import { RecordedSource } from './source.js';
+import { accent } from './theme.js';
 
-const PUSHING = [0.16, 1.0, 0.42, 1], VELOCITY = [0.95, 0.95, 1.0, 0.95], AXIS = [0.95, 0.95, 1.0], HIT = [1.0, 0.85, 0.2], BROKE = [1.0, 0.2, 0.1];
-// Colours of joint forces: none, about 10 times and about 100 times the lighter body's weight.
-const LIGHT = [0.02, 0.78, 1.0], LADEN = [1.0, 0.80, 0.04], HEAVY = [1.0, 0.03, 0.05], DOUBLINGS = 7;
+const HIT = [1.0, 0.85, 0.2], BROKE = [1.0, 0.2, 0.1];
 const SHOWN_FOR = 0.25;  // s, of hits
 
 class Player {
@@ -24,6 +25,8 @@ class Player {
     this.pose = new Pose();
     this.lines = new Lines();
     this.jointLines = new Lines();
+    this.marks = new Marks(this);
+    this.governor = new Governor(this.renderer);
     this.frame = 0;
     this.speed = 1;
     this.loops = true;
@@ -34,7 +37,6 @@ class Player {
     this.history = null;
     this.dirty = true;
     this.quality = 'auto';
-    this.paces = [];
     this.drawnFrames = 0;
     this.takeScene();
     source.onReady = () => this.change();
@@ -44,15 +46,13 @@ class Player {
   // Light, colours and marks as the scene's head tells them.
   takeScene() {
     this.scene = this.source.scene;
-    const { head } = this.scene, gravity = length(head.gravity);
+    const { head } = this.scene;
     this.renderer.sky = this.renderer.ownSky = head.sky;
     this.renderer.sun = head.sun;
     this.palette = new Palette(head);
     this.shows = { contacts: false, joints: false, velocities: false, hits: false, sleep: false };
     for (const name of head.show) if (name in this.shows) this.shows[name] = true;
     this.applyShown();
-    this.pull = gravity > 0 ? gravity : 9.81;
-    this.markPush = (gravity > 0 ? gravity : 4) / (head.rate * head.substeps);
   }
   change() { this.dirty = true; }
   get duration() { return this.source.count - 1; }
@@ -83,7 +83,7 @@ class Player {
   setQuality(word) {
     this.quality = word;
     if (word !== 'auto') this.renderer.quality = Number(word);
-    this.paces = [];
+    this.governor.forget();
     this.change();
   }
 
@@ -113,7 +113,7 @@ class Player {
     camera.zoom(Math.min(1, 5 * radius / (camera.slope * camera.distance)));
     this.change();
   }
-  positionOf(place) { return Array.from(this.pose.position.subarray(3 * place, 3 * place + 3)); }
+  positionOf(place) { return this.marks.positionOf(place); }
 
   select(place, looks = false) {
     if (this.selected === place) return;
@@ -136,9 +136,8 @@ class Player {
         if (this.pose.exists[place] && !body.plane && (anyone || body.motion !== FIXED)) return this.select(place);
       }
   }
-  pickAt(x, y) {
-    const place = this.renderer.pick(this.camera, x, y);
-    this.select(place);
+  tapped({ offsetX, offsetY }) {
+    this.select(this.renderer.pick(this.camera, offsetX, offsetY));
     this.change();
   }
 
@@ -177,31 +176,18 @@ class Player {
     pose.paint(palette, scene, before, source.now, near, source.seconds, (level) => source.decoder.forceOf(level), 1 / (head.rate * head.substeps));
     this.moveCamera(before, source.now, part);
     this.lines.clear();
-    if (this.shows.contacts) this.addContacts(near);
+    const { decoder } = source;
+    if (this.shows.contacts && near.contacts) this.marks.addContacts(this.lines, near.contacts, (i) => decoder.forceOf(near.contacts.level[i]));
     this.jointLines.clear();
-    if (this.shows.joints) this.addJoints(near);
-    if (this.shows.velocities) this.addVelocities();
+    if (this.shows.joints) this.marks.addJoints(this.jointLines, (i) => near.jointBroken[i], (i) => decoder.forceOf(near.jointForce[i] ?? 0));
+    if (this.shows.velocities) this.marks.addVelocities(this.lines);
     if (this.shows.hits) this.addHits();
     this.addMore();
-    const dark = document.documentElement.dataset.theme === 'dark';
-    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.jointLines, dark ? [0.35, 0.75, 1, 1] : [0.02, 0.45, 0.95, 1]);
+    renderer.draw(this.camera, scene, pose, this.selected, this.lines, this.jointLines, accent());
     ++this.drawnFrames;
     this.controls.update();
     if (this.software) renderer.gl.finish();
-    this.govern(now);
-  }
-
-  // Lowers the quality while pictures come too slowly.
-  govern(now) {
-    const pace = this.lastDrawn ? now - this.lastDrawn : 0;
-    this.lastDrawn = now;
-    if (!this.playing || this.quality !== 'auto' || pace <= 0 || pace > 5000) return;
-    this.paces.push(pace);
-    const enough = pace > 150 ? 3 : 16;
-    if (this.paces.length < enough) return;
-    const middle = this.paces.sort((a, b) => a - b)[this.paces.length >> 1];
-    this.paces = [];
-    if (middle > 45 && this.renderer.quality < WORST_QUALITY) ++this.renderer.quality;
+    this.governor.drawn(now, this.playing && this.quality === 'auto');
   }
 
   moveCamera(before, now, part) {
@@ -219,73 +205,7 @@ class Player {
     this.followed = at;
   }
 
-  fromEye(point) { return sub(point, this.camera.eye); }
-  turnedOn(place, v) {
-    const q = this.pose.orientation.subarray(4 * place, 4 * place + 4);
-    return rotated(q, v);
-  }
-
-  addContacts({ contacts }) {
-    if (!contacts) return;
-    const { decoder } = this.source, { bodies } = this.scene, radius = this.renderer.bodyRadius ?? [];
-    const substep = 1 / (this.scene.head.rate * this.scene.head.substeps);
-    for (let i = 0; i < contacts.count; ++i) {
-      const a = contacts.a[i], b = contacts.b[i];
-      if (!this.pose.exists[a] || !this.pose.exists[b]) continue;
-      const sizes = [a, b].filter((place) => bodies[place].mass > 0).map((place) => 0.5 * radius[place]);
-      const size = Math.min(...sizes, 1e6), masses = [a, b].map((place) => bodies[place].mass).filter((mass) => mass > 0);
-      const push = decoder.forceOf(contacts.level[i]) * substep / Math.min(...masses);
-      const half = size * Math.min(0.25 * Math.sqrt(push / this.markPush), 0.95);
-      const point = this.fromEye(Array.from(contacts.point.subarray(3 * i, 3 * i + 3)));
-      const normal = Array.from(contacts.normal.subarray(3 * i, 3 * i + 3)), way = scaled(normal, half);
-      this.lines.add(sub(point, way), add(point, way), 1.1, 0.4 * size, PUSHING);
-      this.lines.add(point, point, Math.max(1.3, Math.min(0.15 * size / (length(point) * (this.renderer.view?.pixel ?? 1e-3)), 5)), 0.4 * size, PUSHING);
-    }
-  }
-
-  addJoints(now) {
-    const { scene, pose } = this, radius = this.renderer.bodyRadius ?? [], ratio = this.renderer.canvas.height / 720;
-    scene.joints.forEach((joint, i) => {
-      if (now.jointBroken[i]) return;
-      const ends = [[joint.a, joint.anchorA], [joint.b, joint.anchorB]].map(([place, anchor]) => {
-        if (place < 0) return { anchor: this.fromEye(anchor), middle: null, reach: 0, mass: 0 };
-        const middle = this.fromEye(this.positionOf(place)), { plane, mass } = scene.bodies[place];
-        return { anchor: add(middle, this.turnedOn(place, anchor)), middle: plane ? null : middle, gone: !pose.exists[place], reach: radius[place] ?? 0, mass };
-      });
-      if (ends.some((end) => end.gone)) return;
-      const [a, b] = ends, masses = ends.map((end) => end.mass).filter((mass) => mass > 0);
-      const reaches = ends.filter((end) => end.mass > 0).map((end) => end.reach), lift = reaches.length ? Math.min(...reaches) : 0;
-      const force = this.source.decoder.forceOf(now.jointForce[i] ?? 0);
-      const strength = Math.max(0, Math.min(1, Math.log2(1 + force / Math.min(...masses) / this.pull) / DOUBLINGS));
-      const mix = (x, y, t) => x.map((v, k) => v + (y[k] - v) * t);
-      const color = [...(strength < 0.5 ? mix(LIGHT, LADEN, 2 * strength) : mix(LADEN, HEAVY, 2 * strength - 1)), 1];
-      const pixel = this.camera.orthographic ? (this.renderer.view?.pixel ?? 0.01) : length(a.anchor) * (this.renderer.view?.pixel ?? 0.001);
-      const dotRadius = Math.max(1.2, Math.min(0.4 * lift / pixel, Math.max(2.2, 3.4 * ratio))), thin = Math.min(Math.max(0.8, 1.2 * ratio), 0.6 * dotRadius);
-      for (const end of ends) if (end.middle) this.jointLines.add(end.middle, end.anchor, thin, end.reach, color);
-      this.jointLines.add(a.anchor, b.anchor, thin, lift, color);
-      if (joint.axis) {
-        let x = rotated(joint.frame, [1, 0, 0]);
-        if (joint.a >= 0) x = this.turnedOn(joint.a, x);
-        const size = Math.max(3 * dotRadius * pixel, Math.min(0.5 * lift, 8 * dotRadius * pixel));
-        this.jointLines.add(sub(a.anchor, scaled(x, size)), add(a.anchor, scaled(x, size)), thin, lift, [...AXIS, 1]);
-      }
-      this.jointLines.add(a.anchor, a.anchor, dotRadius, lift, color);
-      this.jointLines.add(b.anchor, b.anchor, dotRadius, lift, color);
-    });
-  }
-
-  addVelocities() {
-    const { pose, scene } = this, radius = this.renderer.bodyRadius ?? [];
-    for (let i = 0; i < pose.size; ++i) {
-      if (!pose.exists[i] || scene.bodies[i].motion === FIXED) continue;
-      const v = [pose.velocity[3 * i], pose.velocity[3 * i + 1], pose.velocity[3 * i + 2]];
-      if (dot(v, v) < 1e-4) continue;
-      const from = this.fromEye(this.positionOf(i)), to = add(from, scaled(v, 0.2)), along = unit(v), head = Math.min(0.3 * length(v) * 0.2, 0.3 * radius[i]);
-      this.lines.add(from, to, 0.9, radius[i], VELOCITY);
-      const side = unit([along[1] - along[2], along[2] - along[0], along[0] - along[1]]);
-      for (const way of [1, -1]) this.lines.add(to, add(sub(to, scaled(along, head)), scaled(side, 0.5 * way * head)), 0.9, radius[i], VELOCITY);
-    }
-  }
+  fromEye(point) { return this.marks.fromEye(point); }
 
   addHits() {
     const seconds = this.time, { events } = this.scene;

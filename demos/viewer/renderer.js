@@ -445,16 +445,10 @@ export class Renderer {
     const sunBox = this.lightBox(sun, low, high), skyBox = this.lightBox([0, 1, 0], low, high);
     if (quality.sun) this.drawMap('sun', quality.sun, sunBox, sun, true); else this.map('sun', 4, true);
     if (quality.sky) this.drawMap('sky', quality.sky, skyBox, [0, 1, 0], false); else this.map('sky', 4, false);
-    const sunTexel = Math.max(sunBox.size[0], sunBox.size[1]) / (quality.sun || 1);
-    const skyTexel = Math.max(skyBox.size[0], skyBox.size[1]) / (quality.sky || 1);
     const sceneSize = length(sub(scene.head.high, scene.head.low));
     const uniforms = {
       ...this.viewUniforms(camera, view), light_view: [0, 0, 0], inflated: 0,
-      sun_map: this.lightMatrix(sunBox, false), sky_map: this.lightMatrix(skyBox, false),
-      maps: [sunTexel, skyTexel, 1 / (quality.sun || 1), 1 / (quality.sky || 1)],
-      depths: [skyBox.size[2], 10 * skyTexel, quality.sun ? 1 : 0, quality.sky ? 1 : 0],
-      toward_sun: sun, sun_light: sky[0], zenith: [...sky[1], sky[5]], horizon: sky[2], bounce: sky[3], ambient: sky[4],
-      haze: Math.max(3.5 * camera.distance, 1.75 * sceneSize), sun_depths: 0, sky_depths: 1,
+      ...this.lightUniforms({ sun, sky, sunBox, skyBox, quality, haze: Math.max(3.5 * camera.distance, 1.75 * sceneSize) }), sun_depths: 0, sky_depths: 1,
     };
     this.view = view;
     gl.activeTexture(gl.TEXTURE0);
@@ -475,6 +469,15 @@ export class Renderer {
     this.drawLines(joints, uniforms, true);
     this.drawLines(lines, uniforms, false);
     gl.bindVertexArray(null);
+  }
+  // As shaders/render/frame.h has them. Beside a map is full light: without one all is beside it.
+  lightUniforms({ sun, sky, sunBox, skyBox, quality, haze }) {
+    const texel = (box, size) => Math.max(box.size[0], box.size[1]) / (size || 1), skyTexel = texel(skyBox, quality.sky);
+    const light = { sun_map: this.lightMatrix(sunBox, false), sky_map: this.lightMatrix(skyBox, false), toward_sky: [0, 1, 0, 1], toward_sun: [...sun, 1],
+      zenith: [...sky[1], sky[5]], horizon: [...sky[2], 0], sun_light: [...sky[0], 0], bounce: [...sky[3], 0], ambient: [...sky[4], 0],
+      eye: [0, 0, 0, haze], maps: [texel(sunBox, quality.sun), skyTexel, 1 / (quality.sun || 1), 1 / (quality.sky || 1)],
+      pixel: [0, skyBox.size[2], 10 * skyTexel, 0] };
+    return Object.fromEntries(Object.entries(light).map(([name, value]) => [`frame.${name}`, value]));
   }
   viewUniforms(camera, view) {
     return { view_projection: view.matrix, forward: [...scaled(view.back, -1), camera.orthographic ? 1 : 0], ray_corner: [...view.corner, 0],

@@ -1,4 +1,6 @@
-// Shaders: light, shapes, ground, sky and lines in the look of the program's pictures (shaders/render), for WebGL 2.
+// Shaders: shapes, ground, sky and lines for WebGL 2, with the light and the ground of the program's pictures.
+import ground from '../../shaders/render/ground.h';
+import shading from '../../shaders/render/shading.h';
 
 const HEAD = `#version 300 es
 precision highp float;
@@ -18,99 +20,22 @@ vec3 turned_back(vec4 q, vec3 v) { return turned(vec4(-q.xyz, q.w), v); }
 `;
 
 const LIGHT = `
-uniform mat4 sun_map, sky_map;   // from the eye to 0..1
-uniform vec4 maps;               // texels of both, m; the same as fractions
-uniform vec4 depths;             // depth of the sky map, m; height at which occlusion halves, m; 1 with shadows; 1 with occlusion
-uniform vec3 toward_sun, sun_light, bounce, ambient, horizon;
-uniform vec4 zenith;             // w: glow of the sky around the sun
-uniform float haze;              // distance, m
+struct Light { mat4 sun_map, sky_map; vec4 toward_sky, toward_sun, zenith, horizon, sun_light, bounce, ambient, eye, maps, pixel; };
+uniform Light frame;  // of shaders/render/frame.h what light needs; sun_map and sky_map from the eye
 uniform sampler2DShadow sun_depths;
 uniform sampler2D sky_depths;
-
-vec3 sky_color(vec3 direction) {
-    float high = max(direction.y, 0.0);
-    vec3 sky = mix(zenith.xyz, horizon, exp(-8.0 * high * sqrt(high)));
-    float toward = max(dot(direction, toward_sun), 0.0);
-    return sky + sun_light * zenith.w * (0.10 * pow(toward, 6.0) + 0.25 * pow(toward, 90.0));
-}
-bool beside_map(vec2 at, float r) {
-    vec2 beyond = abs(at - 0.5) - 0.5;
-    return max(beyond.x, beyond.y) > -2.0 * r;
-}
-float sun_visibility(vec3 point, vec3 normal) {
-    if (depths.z < 0.5) return 1.0;
-    float facing = dot(normal, toward_sun);
-    if (facing <= 0.0) return 0.0;
-    vec3 lifted = point + normal * (maps.x * (0.6 + 2.4 * sqrt(max(1.0 - facing * facing, 0.0))));
-    vec3 at = (sun_map * vec4(lifted, 1.0)).xyz;
-    at.z = min(at.z, 0.99999);
-    float r = maps.z;
-    if (beside_map(at.xy, r)) return 1.0;
-    return 0.25 * (texture(sun_depths, at + vec3(-0.55 * r, -1.35 * r, 0.0)) + texture(sun_depths, at + vec3(1.35 * r, -0.55 * r, 0.0)) +
-                   texture(sun_depths, at + vec3(0.55 * r, 1.35 * r, 0.0)) + texture(sun_depths, at + vec3(-1.35 * r, 0.55 * r, 0.0)));
-}
-float shut_at(vec2 at, float depth) {
-    vec2 texels = at / maps.w - 0.5, f = fract(texels);
-    ivec2 low = ivec2(floor(texels)), most = textureSize(sky_depths, 0) - 1;
+#define MAP_MARGIN -2.0
+${shading}
+float lit_at(vec2 at, float depth) { return texture(sun_depths, vec3(at, depth)); }
+vec4 sky_depths_at(vec2 at) {
+    ivec2 low = ivec2(floor(at / frame.maps.w - 0.5)), most = textureSize(sky_depths, 0) - 1;
     ivec2 a = clamp(low, ivec2(0), most), b = clamp(low + 1, ivec2(0), most);
-    vec4 found = vec4(texelFetch(sky_depths, ivec2(a.x, b.y), 0).r, texelFetch(sky_depths, b, 0).r,
-                      texelFetch(sky_depths, ivec2(b.x, a.y), 0).r, texelFetch(sky_depths, a, 0).r);
-    vec4 gap = (depth - found) * (depths.x / depths.y);
-    vec4 near = max(1.0 - 0.25 * gap * gap, vec4(0.0));
-    vec4 shut = step(vec4(0.0), gap) * near * near;
-    return mix(mix(shut.w, shut.z, f.x), mix(shut.x, shut.y, f.x), f.y);
-}
-float sky_visibility(vec3 point, vec3 normal) {
-    float facing = smoothstep(-0.3, 0.2, normal.y);
-    if (depths.w < 0.5) return mix(0.55, 1.0, facing);
-    vec3 lifted = point + normal * (maps.y * 2.4) + vec3(0.0, 0.5 * maps.y, 0.0);
-    vec3 at = (sky_map * vec4(lifted, 1.0)).xyz;
-    at.z = min(at.z, 0.99999);
-    float r = maps.w;
-    if (beside_map(at.xy, r)) return mix(0.55, 1.0, facing);
-    float shut = shut_at(at.xy + vec2(-0.5 * r, -1.3 * r), at.z) + shut_at(at.xy + vec2(1.3 * r, -0.5 * r), at.z) +
-                 shut_at(at.xy + vec2(0.5 * r, 1.3 * r), at.z) + shut_at(at.xy + vec2(-1.3 * r, 0.5 * r), at.z);
-    return mix(0.55, 1.0 - 0.195 * shut, facing);
-}
-// Linear up to 0.76, then a hue-preserving shoulder to white, after Khronos PBR Neutral.
-vec3 tone_mapped(vec3 c) {
-    float peak = max(c.r, max(c.g, c.b));
-    const float start = 0.76;
-    if (peak < start) return c;
-    const float d = 1.0 - start;
-    float new_peak = 1.0 - d * d / (peak + d - start);
-    c *= new_peak / peak;
-    float g = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
-    return mix(c, vec3(new_peak), g);
-}
-vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
-    float sun = max(dot(normal, toward_sun), 0.0) * sun_visibility(point, normal);
-    float open = sky_visibility(point, normal);
-    vec3 sky = mix(bounce, ambient, 0.5 + 0.5 * normal.y) * open;
-    vec3 light = color * (sun_light * sun + sky);
-    if (gloss <= 0.0) return light;
-    float grazing = 1.0 - clamp(-dot(direction, normal), 0.0, 1.0);
-    float grazing2 = grazing * grazing;
-    float fresnel = 0.04 + 0.96 * grazing2 * grazing2 * grazing;
-    float shine = max(dot(normal, normalize(toward_sun - direction)), 0.0);
-    float highlight = pow(shine, 48.0) * 0.35 * sun;
-    vec3 mirrored = reflect(direction, normal);
-    vec3 above = mix(horizon, zenith.xyz, clamp(mirrored.y, 0.0, 1.0));
-    vec3 reflected = mix(bounce, above, smoothstep(-0.15, 0.15, mirrored.y));
-    return light + gloss * (sun_light * highlight + reflected * (fresnel * open * 0.7));
-}
-vec3 hazed(vec3 color, float distance) {
-    if (orthographic()) return color;
-    float x = distance / haze;
-    return mix(horizon, color, exp(-0.35 * x * x));
+    return vec4(texelFetch(sky_depths, ivec2(a.x, b.y), 0).r, texelFetch(sky_depths, b, 0).r,
+                texelFetch(sky_depths, ivec2(b.x, a.y), 0).r, texelFetch(sky_depths, a, 0).r);
 }
 vec4 finished(vec3 color) {
     vec3 c = clamp(tone_mapped(color), 0.0, 1.0);
     return vec4(mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-5)), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)), 1.0);
-}
-float seam_at(float edge, float width, float thinnest) {
-    float room = clamp(0.2 * thinnest / width - 0.4, 0.0, 1.0);
-    return 0.42 * room * (1.0 - smoothstep(0.4, 1.5, edge / width));
 }
 `;
 
@@ -309,16 +234,7 @@ uniform vec4 plane;
 uniform vec3 axis_u, axis_v;
 uniform vec2 origin;  // the eye's coordinates on the axes
 out vec4 out_color;
-float covered_up_to(float x, float half_width) {
-    return floor(x + 0.5) * 2.0 * half_width + clamp(fract(x + 0.5) - 0.5, -half_width, half_width);
-}
-float line(float x, float w, float half_width) {
-    return (covered_up_to(x + 0.5 * w, half_width) - covered_up_to(x - 0.5 * w, half_width)) / w;
-}
-float tiles(vec2 x, vec2 w) {
-    vec2 i = 2.0 * (abs(fract((x - 0.5 * w) * 0.5) - 0.5) - abs(fract((x + 0.5 * w) * 0.5) - 0.5)) / w;
-    return 0.5 - 0.5 * i.x * i.y;
-}
+${ground}
 void main() {
     vec3 offset = ray_corner.xyz + ray_right.xyz * gl_FragCoord.x + ray_down.xyz * gl_FragCoord.y;
     vec3 start = orthographic() ? offset : vec3(0.0), ray = orthographic() ? forward.xyz : offset;
@@ -330,16 +246,7 @@ void main() {
     vec3 to_right = (ray_right.xyz + ray * (dot(plane.xyz, ray_right.xyz) / sinking)) * spread;
     vec3 to_up = (ray_down.xyz + ray * (dot(plane.xyz, ray_down.xyz) / sinking)) * spread;
     vec2 w = max(vec2(abs(dot(axis_u, to_right)) + abs(dot(axis_u, to_up)), abs(dot(axis_v, to_right)) + abs(dot(axis_v, to_up))), 1e-6);
-    float widest = max(w.x, w.y);
-    float finest = (1.0 - smoothstep(0.006, 0.02, widest)) * max(line(at.x * 10.0, w.x * 10.0, 0.012), line(at.y * 10.0, w.y * 10.0, 0.012));
-    float metres = 1.0 - smoothstep(0.08, 0.3, widest);
-    float fine = metres * max(line(at.x, w.x, 0.012), line(at.y, w.y, 0.012));
-    float coarse = max(line(at.x * 0.1, w.x * 0.1, 0.003), line(at.y * 0.1, w.y * 0.1, 0.003));
-    vec3 color = vec3(0.335, 0.33, 0.32);
-    color *= 1.0 - 0.05 * mix(0.5, tiles(at, w), metres) - 0.06 * tiles(at * 0.1, w * 0.1);
-    color *= 1.0 - 0.10 * finest - 0.24 * fine;
-    color = mix(color, color * 0.55, coarse);
-    out_color = finished(hazed(lit(color, at3, plane.xyz, normalize(ray), 0.0), length(at3)));
+    out_color = finished(hazed(lit(ground_color(at, w), at3, plane.xyz, normalize(ray), 0.0), length(at3)));
 }`;
 
 const SKY_VERTEX = `#version 300 es

@@ -116,6 +116,7 @@ struct CanvasOptions {
     bool boxes = false;              // bounding boxes of bodies
     bool cells = false;              // occupied cells of the broadphase grid
     float cell = 1;                  // width of the finest grid level, m
+    bool parts = false;              // of whoever makes the instances: convex parts in place of skins
     bool joints = false;             // unbroken joints: lines from bodies to their anchors, and axes
     float joint_pull = 9.81f;        // acceleration of the lighter body, m/s^2, that is the unit of a joint's colour
     bool sleep = false;              // sleeping bodies are drawn dull and blue

@@ -84,16 +84,7 @@ void PanelPass::make_font() {
     Buffer staging(device_, "panel font", static_cast<std::size_t>(width) * static_cast<std::size_t>(height), BufferUse::upload);
     staging.write(coverages, staging.bytes());
 
-    VkCommandPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    pool_info.queueFamilyIndex = device_->queue_family();
-    VkCommandBufferAllocateInfo allocation{};
-    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    allocation.commandPool = objects_.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, pool_info, "vkCreateCommandPool");
-    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocation.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(vk.vkAllocateCommandBuffers(device_->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    const VkCommandBuffer commands = objects_.commands();
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
@@ -137,18 +128,7 @@ void PanelPass::make_layout() {
     set_info.pBindings = &binding;
     set_layout_ =
         objects_.make(vk.vkCreateDescriptorSetLayout, vk.vkDestroyDescriptorSetLayout, set_info, "vkCreateDescriptorSetLayout");
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
-    VkDescriptorPoolCreateInfo pool{};
-    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool.maxSets = pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
-    VkDescriptorSetAllocateInfo allocation{};
-    allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    allocation.descriptorPool =
-        objects_.make(vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool, "vkCreateDescriptorPool");
-    allocation.descriptorSetCount = 1;
-    allocation.pSetLayouts = &set_layout_;
-    check(vk.vkAllocateDescriptorSets(device_->handle(), &allocation, &set_), "vkAllocateDescriptorSets");
+    set_ = objects_.descriptors(set_layout_, std::array{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}});
     const VkDescriptorImageInfo image{sampler_, font_.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

@@ -152,11 +152,9 @@ struct Window::Impl {
     std::unique_ptr<Swapchain> swapchain;
     std::unique_ptr<PanelPass> panel;
     VulkanObjectPool objects;
-    VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
 
-    void make_commands();
     void listen();
     void record(VkImage picture, const Swapchain::Target& target, int width, int height);
     void submit(const Swapchain::Target& target);
@@ -179,7 +177,8 @@ Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
         return surface;
     });
     set_text_scale(1);
-    make_commands();
+    commands = objects.commands();
+    fence = objects.fence();
     ImGui_ImplGlfw_InitForVulkan(handle, false);  // listen() passes on what it needs
     listen();
 }
@@ -215,24 +214,6 @@ void Window::Impl::set_text_scale(float scale) {
     style.FrameRounding = 3;
     style.ScaleAllSizes(scale);
     ImGui::GetStyle() = style;
-}
-
-void Window::Impl::make_commands() {
-    const VulkanFunctions& vk = device->vk();
-    VkCommandPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    info.queueFamilyIndex = device->queue_family();
-    pool = objects.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo allocation{};
-    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    allocation.commandPool = pool;
-    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocation.commandBufferCount = 1;
-    check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
-    VkFenceCreateInfo fence_info{};
-    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    fence = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence_info, "vkCreateFence");
 }
 
 // Converts the pointer position from screen units to pixels, which differ on some displays.

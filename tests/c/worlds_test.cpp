@@ -54,6 +54,21 @@ TEST_CASE("c: a world has the bits of the C++ library's, also from the text that
     }
 }
 
+TEST_CASE("c: grains are added to a scene, and poured in by a world's steps") {
+    const Scene scene = balls(1);
+    const std::string region = R"("region": {"box": {"low": [3, 0, -1], "high": [5, 1, 1]}}})";
+    std::size_t first = 0;
+    ok(scree_scene_add(scene, "grains", (R"({"size": 0.1, "count": 30, )" + region).c_str(), &first));
+    CHECK(first == 2);
+    ok(scree_scene_add(scene, "grains", (R"({"size": 0.1, "count": 20, "count_rate": 100, )" + region).c_str(), &first));
+    CHECK(first == 0);  // the event
+    CHECK(scree_scene_add(scene, "grains", (R"({"size": 0.1, )" + region).c_str(), &first) == SCREE_BAD_SCENE);
+    const World world(scene);
+    CHECK(world.info().bodies == 32);
+    world.step(60);
+    CHECK(world.info().bodies > 32);
+}
+
 TEST_CASE("c: columns are read and set by their strides, and nothing beside them is touched") {
     const World world(balls(3));
     std::vector<Row> rows = rows_of(world);
@@ -136,6 +151,26 @@ TEST_CASE("c: a saved state is restored to the same bits, by bytes, by file and 
     CHECK(world.hash() == later);
     refused(scree_world_restore(world, saved.data(), saved.size() / 2), SCREE_BAD_CHECKPOINT, "");
     CHECK(world.hash() == later);
+}
+
+TEST_CASE("c: a world that follows the fountain has its bodies, and views are refused meanwhile") {
+    const World world(demo("fountain", 100)), other(demo("fountain", 100));
+    const std::size_t before = world.info().bodies;
+    ok(scree_world_follow_demo(world, "fountain", 100, 1));
+    world.step(25);
+    other.step(25);
+    CHECK(world.info().bodies == before + 3 * (100 / 36));
+    CHECK(other.info().bodies == before);
+    scree_view* view = nullptr;
+    scree_array rows{};
+    ok(scree_world_view(world, "poses", &view, &rows));
+    refused(scree_world_step(world, 1, nullptr, nullptr), SCREE_VIEWED, "stepped after a demo");
+    scree_view_release(view);
+    ok(scree_world_follow_demo(world, nullptr, 0, 1));
+    world.step(25);
+    CHECK(world.info().bodies == before + 3 * (100 / 36));
+    refused(scree_world_follow_demo(world, "fontain", 0, 1), SCREE_BAD_ARGUMENT, "fontain");
+    refused(scree_world_follow_demo(world, "wall", 7, 1), SCREE_BAD_ARGUMENT, "bodies");
 }
 
 TEST_CASE("c: progress is told between steps, and may stop them") {

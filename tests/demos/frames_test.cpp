@@ -4,12 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "demos/film/frame_encoder.h"
+#include "demos/film/pages/frame_encoder.h"
 
 using namespace scree::demos;
 using glm::vec3;
@@ -123,7 +124,7 @@ private:
             body.falls = falls;
             if (body.d == std::array<std::int32_t, 3>{}) continue;
             const auto [x, y, z, w] = body.q;
-            const double a = body.d[0] * FrameUnits::turn, b = body.d[1] * FrameUnits::turn, c = body.d[2] * FrameUnits::turn;
+            const double a = body.d[0] * units_.turn, b = body.d[1] * units_.turn, c = body.d[2] * units_.turn;
             const std::array<double, 4> r{((w * a + x) + y * c) - z * b, ((w * b + y) + z * a) - x * c,
                                           ((w * c + z) + x * b) - y * a, ((w - x * a) - y * b) - z * c};
             const double size = std::sqrt(((r[0] * r[0] + r[1] * r[1]) + r[2] * r[2]) + r[3] * r[3]);
@@ -136,7 +137,7 @@ private:
 // How far a decoded body is from the true one, as parts of what is told.
 struct Errors {
     double position = 0, velocity = 0, angle = 0, force = 0;
-    void take(const FrameUnits& units, const BodyMoment& body, const Decoded& got) {
+    void take(const FrameUnits& units, const BodyMoment& body, const Decoded& got, bool has_force) {
         double dot = 0;
         for (int k = 0; k < 3; ++k) {
             const auto i = static_cast<std::size_t>(k);
@@ -148,11 +149,11 @@ struct Errors {
         double away = 0;  // the chord of half the angle
         for (int k = 0; k < 4; ++k)
             away += std::pow(double{body.orientation[k]} * (dot < 0 ? -1 : 1) - got.q[static_cast<std::size_t>(k)], 2);
-        angle = std::max(angle, 4 * std::asin(std::min(1.0, std::sqrt(away) / 2)) / FrameUnits::angle_error());
+        angle = std::max(angle, 4 * std::asin(std::min(1.0, std::sqrt(away) / 2)) / units.angle_error());
+        if (!has_force) return;
         if (double{body.force} >= units.force) {
             const double told = units.force * std::exp2((got.force - 1) / FrameUnits::levels_per_octave);
-            force = std::max(force,
-                             std::abs(std::log2(told / double{body.force})) * FrameUnits::levels_per_octave / FrameUnits::slack);
+            force = std::max(force, std::abs(std::log2(told / double{body.force})) / std::log2(1 + FrameUnits::force_error()));
         } else {
             CHECK(got.force == 0);
         }
@@ -218,7 +219,8 @@ void check_same(const std::vector<Decoded>& a, const std::vector<Decoded>& b) {
 
 TEST_CASE("recordings: every pose is within what is told, from the start and from any whole frame") {
     const float seconds = 1.0f / 30;
-    const FrameUnits units = FrameUnits::of(0.4, 30, double{seconds}, {0, -9.81, 0}, 1e-3);
+    const bool crowd = GENERATE(false, true);
+    const FrameUnits units = FrameUnits::of(0.4, 30, double{seconds}, {0, -9.81, 0}, 1e-3, crowd);
     REQUIRE(units.position > 0.4 / 1024);
     REQUIRE(units.fall[1] < -10);
     FrameEncoder encoder(units);
@@ -229,7 +231,9 @@ TEST_CASE("recordings: every pose is within what is told, from the start and fro
     for (int frame = 0; frame < 200; ++frame) {
         if (frame == 90) motions.bodies.resize(320, motions.bodies[3]), motions.spins.resize(320, vec3(1));
         const bool whole = frame % 45 == 0;
+        const auto turn = static_cast<std::size_t>(frame + 1) % FrameUnits::forces_apart;
         ChunkBytes bytes;
+        encoder.set_short(crowd && frame % 7 > 2);
         encoder.encode(bytes, motions.bodies, whole);
         from_start.decode(bytes.bytes, whole);
         if (whole) from_whole.emplace(units);
@@ -239,7 +243,9 @@ TEST_CASE("recordings: every pose is within what is told, from the start and fro
             REQUIRE(from_start.bodies[i].exists == motions.bodies[i].exists);
             if (!motions.bodies[i].exists) continue;
             REQUIRE(from_start.bodies[i].asleep == motions.bodies[i].asleep);
-            errors.take(units, motions.bodies[i], from_start.bodies[i]);
+            // Short frames tell the forces of each eighth body, in turn.
+            const bool has_force = whole || !encoder.is_short() || i % FrameUnits::forces_apart == turn;
+            errors.take(units, motions.bodies[i], from_start.bodies[i], has_force);
         }
         motions.step(seconds);
     }
@@ -275,9 +281,49 @@ TEST_CASE("recordings: bodies that rest or fly freely take next to nothing") {
     CHECK(size / 29 < 800);  // a frame: 250 bytes of bits, and few of the 500 that fly
 }
 
+TEST_CASE("recordings: short frames of a crowd have the poses of others, in fewer bytes") {
+    const double seconds = 1.0 / 30;
+    const auto units_of = [&](bool crowd) { return FrameUnits::of(0.4, 30, seconds, {0, -9.81, 0}, 1e-3, crowd); };
+    const FrameUnits plain = units_of(false), units = units_of(true);
+    CHECK(units.position_error() == Approx(plain.position_error()).epsilon(0.05));
+    CHECK(units.angle_error() == Approx(plain.angle_error()));
+    CHECK(units.velocity_error() < 0.2);
+    FrameEncoder exact(plain), coarse(units);
+    coarse.set_short(true);
+    // All collide all the time.
+    std::mt19937 random(5);
+    std::normal_distribution<float> push(0, 0.3f);
+    std::vector<BodyMoment> bodies(500);
+    for (BodyMoment& body : bodies) body.exists = true;
+    std::map<std::int32_t, int> exact_numbers, coarse_numbers;
+    const auto count_numbers = [&](const FrameEncoder& encoder, const std::vector<Follower>& before,
+                                   std::map<std::int32_t, int>& to) {
+        for (std::size_t i = 0; i < bodies.size(); ++i) ++to[encoder.followers()[i].velocity[0] - before[i].velocity[0]];
+    };
+    for (int frame = 0; frame < 40; ++frame) {
+        const std::vector<Follower> a = exact.followers(), b = coarse.followers();
+        ChunkBytes bytes, fewer;
+        exact.encode(bytes, bodies, frame == 0);
+        coarse.encode(fewer, bodies, frame == 0);
+        if (frame > 0) count_numbers(exact, a, exact_numbers), count_numbers(coarse, b, coarse_numbers);
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                REQUIRE(std::abs(coarse.followers()[i].position[k] * units.part() -
+                                 double{bodies[i].position[static_cast<glm::length_t>(k)]}) < 1.001 * units.position_error());
+        for (BodyMoment& body : bodies) {
+            const vec3 before = body.velocity;
+            body.velocity = 0.7f * before + vec3(push(random), push(random), push(random));
+            body.position += 0.5f * (before + body.velocity) * static_cast<float>(seconds);
+        }
+    }
+    CHECK(3 * coarse_numbers.size() < exact_numbers.size());
+}
+
 TEST_CASE("recordings: numbers that are none, or beyond all bounds, do no harm") {
-    const FrameUnits units = FrameUnits::of(1e-3, 1e6, 0.01, {0, -9.81, 0}, 0);
+    const bool crowd = GENERATE(false, true);
+    const FrameUnits units = FrameUnits::of(1e-3, 1e6, 0.01, {0, -9.81, 0}, 0, crowd);
     FrameEncoder encoder(units);
+    encoder.set_short(crowd);
     Decoder decoder(units);
     std::vector<BodyMoment> bodies(3);
     for (BodyMoment& body : bodies) body.exists = true;

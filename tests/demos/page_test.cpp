@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compute/world.h"
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 #include "demos/program/loaded_scene.h"
 #include "tests/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, OBJ and STL.
+# Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, USD, OBJ and STL.
 #
 #     tests/fuzz/fuzz.py PROGRAM --seconds 600 [--jobs 2] [--seed 1] [--devices] [--findings DIR]
 #
@@ -91,6 +91,10 @@ def seeds(program, folder):
     found += [("scene.json", file.read_bytes()) for file in sorted((HERE / "corpus").glob("*.json"))]
     for name, file in (("robot.xml", "quadruped.xml"), ("robot.xml", "everything.xml"), ("robot.urdf", "arm.urdf"), ("physics.gltf", "physics.gltf")):
         found.append((name, (IMPORTS / file).read_bytes()))
+    for demo in ("bridge", "machine", "compounds"):
+        code, _, error = program.run(folder, "export", demo, "-o", "set.usda", seconds=60)
+        if code == 0:
+            found.append(("set.usda", (folder / "set.usda").read_bytes()))
     found.append(("physics.glb", glb((IMPORTS / "physics.gltf").read_bytes())))
     found += [("mesh.obj", OBJ.encode()), ("mesh.stl", STL.encode()), ("binary.stl", stl_bytes())]
     recording = {"scree_input": 1, "scene": "rest", "bodies": 0, "seed": 1, "rate": 60, "substeps": 8, "sleeping": True, "steps": 20,
@@ -186,7 +190,7 @@ def one(program, corpus, seed, findings, only):
 
 
 def main():
-    options = argparse.ArgumentParser(description="Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, OBJ and STL.")
+    options = argparse.ArgumentParser(description="Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, USD, OBJ and STL.")
     options.add_argument("program", type=pathlib.Path)
     options.add_argument("--seconds", type=float, default=600)
     options.add_argument("--jobs", type=int, default=2)

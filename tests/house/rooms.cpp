@@ -40,6 +40,8 @@ const std::vector<Room> rooms = {
     {"compute/scene_file/load_scene.cpp", {"compute/", "host/files/"}},
     // Files of other programs name files, too.
     {"compute/scene_file/import/", {"compute/", "host/files/"}},
+    // Convex parts of meshes are kept in files.
+    {"compute/scene/decomposition_cache.cpp", {"compute/", "host/files/"}},
     // And checkpoints are files: this is the only one that writes any.
     {"compute/scene_file/checkpoint_file.cpp", {"compute/", "host/files/"}},
     // Within compute, what a step is made of: each folder knows those above it in this list.
@@ -76,8 +78,8 @@ const std::vector<Order> orders = {
      {"base", "body", "collide", "constraint", "impact", "contact", "joint", "sleep", "continuous", "fracture", "vehicle"},
      false},
     {"compute/",
-     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "device", "scene_file",
-      "replay"},
+     {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "measures", "device",
+      "scene_file", "replay"},
      true},
 };
 

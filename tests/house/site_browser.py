@@ -32,8 +32,8 @@ class Told(http.server.SimpleHTTPRequestHandler):
 
 def command(url: str, profile: str, log: Path) -> "list[str]":
     return ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}", "--window-size=1280,1000",
-            "--disable-features=AutofillServerCommunication", "--disable-background-networking", "--disable-component-update", "--no-first-run",
-            "--enable-logging=stderr", f"--log-net-log={log}", url]
+            "--disable-features=AutofillServerCommunication,OptimizationHints,OptimizationHintsFetching,OptimizationGuideModelDownloading",
+            "--disable-background-networking", "--disable-component-update", "--no-first-run", "--enable-logging=stderr", f"--log-net-log={log}", url]
 
 
 def chromium(url: str, profile: str, log: Path) -> str:

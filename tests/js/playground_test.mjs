@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { extname, join, normalize } from 'node:path';
+import { extname, join, normalize, resolve } from 'node:path';
 import test, { after, before } from 'node:test';
 import { Browser } from '../viewer/browser.mjs';
 
@@ -98,8 +98,8 @@ test('a body is thrown, and flies', async () => {
     assert.equal((await page.state()).bodies, 3);
     await page.evaluate(`document.getElementById('throw').click()`);
     await page.until('window.scree.state().bodies === 4');
-    const first = await positionOf(page, 3);
-    await page.until(`Math.hypot(...window.scree.positionOf(3).map((x, k) => x - ${JSON.stringify(first)}[k])) > 3`);
+    const { eye } = await page.state();
+    await page.until(`Math.hypot(...window.scree.positionOf(3).map((x, k) => x - ${JSON.stringify(eye)}[k])) > 4`);
     // Many: the oldest fly again.
     await page.evaluate(`for (let i = 0; i < 70; ++i) window.scree.throwAt()`);
     await page.until('window.scree.state().bodies === 63');
@@ -181,6 +181,57 @@ test('scene files come from the same folder alone, and mistakes are told with th
   });
 });
 
+test('marks and a legend are shown as in recordings', async () => {
+  await on('?demo=bridge&play=0&color=speed', {}, async (page) => {
+    assert.equal(await page.evaluate(`document.getElementById('legend').hidden`), false);
+    assert.match(await page.evaluate(`document.getElementById('legend-title').textContent + document.getElementById('legend-unit').textContent`), /speed.*m\/s/);
+    assert.ok(await page.evaluate(`document.getElementById('legend-ticks').childElementCount`) > 1);
+    const step = async (count) => {
+      const { steps } = await page.state();
+      await page.evaluate(`window.scree.tell('step', { count: ${count} })`);
+      await page.until(`window.scree.state().steps === ${steps + count}`);
+      await page.drawn();
+      return page.state();
+    };
+    const plain = await step(60);
+    assert.deepEqual([plain.lines, plain.jointLines, plain.touching], [0, 0, 0]);
+    for (const key of ['k', 'j', 'v']) await page.key(key);
+    const shown = await step(20), joints = await page.evaluate('window.scree.scene.joints.length');
+    assert.deepEqual(shown.shown, { contacts: true, joints: true, velocities: true });
+    assert.ok(shown.touching > 0 && shown.lines >= 2 * shown.touching, JSON.stringify(shown));
+    assert.ok(joints > 0 && shown.jointLines >= 3 * joints, JSON.stringify(shown));
+    assert.match(await page.evaluate('location.search'), /show=contacts,joints,velocities/);
+    await page.key('k');
+    await page.key('j');
+    await page.key('v');
+    const hidden = await step(1);
+    assert.deepEqual([hidden.lines, hidden.jointLines, hidden.touching], [0, 0, 0]);
+    await choose(page, 'color', 'body');
+    assert.equal(await page.evaluate(`document.getElementById('legend').hidden`), true);
+  });
+});
+
+test('bodies of the fountain are born, and go', async () => {
+  await on('?demo=fountain&count=36&play=0', {}, async (page) => {
+    const { bodies } = await page.state(), step = async (count) => {
+      const { steps } = await page.state();
+      await page.evaluate(`window.scree.tell('step', { count: ${count} })`);
+      await page.until(`window.scree.state().steps === ${steps + count}`, 60000);
+      await page.drawn();
+      return (await page.state()).bodies;
+    };
+    assert.equal(await step(100), bodies + 10);  // one in ten steps
+    assert.equal(await step(400), bodies + 37);  // those of the last six seconds
+    assert.equal(await step(200), bodies + 37);
+  });
+});
+
+test('a page that is opened from a file says that it needs a server', async () => {
+  const page = await browser.page(new URL(`${resolve(folder)}/index.html`, 'file:///').href, { still: false, ready: `document.getElementById('trouble')?.hidden === false` });
+  assert.match(await page.evaluate(`document.getElementById('trouble').textContent`), /http\.server/);
+  await page.close();
+});
+
 test('the keyboard alone is enough', async () => {
   await on('?scene=balls.json&play=0', {}, async (page) => {
     await page.key('Tab');
@@ -217,7 +268,7 @@ test('the keyboard alone is enough', async () => {
       assert.notEqual(told[2], 'none', `${told[0]} shows no focus`);
       reached.add(told[0]);
     }
-    for (const id of ['scene', 'gravity', 'friction', 'missile', 'size', 'pace', 'color', 'sky', 'theme', 'home', 'paste', 'play', 'step', 'again', 'throw',
+    for (const id of ['scene', 'gravity', 'friction', 'missile', 'size', 'pace', 'color', 'sky', 'theme', 'show-contacts', 'show-velocities', 'home', 'paste', 'play', 'step', 'again', 'throw',
       'speed', 'more', 'ask']) assert.ok(reached.has(id), `${id} is not reached`);
   });
 });
@@ -225,11 +276,13 @@ test('the keyboard alone is enough', async () => {
 test('a small screen has all controls in reach', async () => {
   await on('?demo=cradle&play=0', { width: 360, height: 640, scale: 2, touch: true, dark: true }, async (page) => {
     const rectangle = (id) => page.evaluate(`(() => { const r = document.getElementById('${id}').getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; })()`);
-    for (const id of ['play', 'step', 'again', 'throw', 'speed', 'more', 'ask', 'title', 'bits']) {
+    for (const id of ['play', 'step', 'again', 'throw', 'speed', 'more', 'ask', 'title', 'bits', 'legend']) {
       const [left, top, right, bottom] = await rectangle(id);
       assert.ok(left >= 0 && top >= 0 && right <= 360 && bottom <= 640 && right > left, `${id}: ${[left, top, right, bottom]}`);
-      if (!['title', 'bits'].includes(id)) assert.ok(right - left >= 40 && bottom - top >= 40, `${id} is too small to touch`);
+      if (!['title', 'bits', 'legend'].includes(id)) assert.ok(right - left >= 40 && bottom - top >= 40, `${id} is too small to touch`);
     }
+    const [bits, legend] = [await rectangle('bits'), await rectangle('legend')];
+    assert.ok(legend[3] <= bits[1] || legend[1] >= bits[3], `the legend lies over the bits: ${legend} ${bits}`);
     assert.equal(await page.evaluate('document.documentElement.scrollWidth'), 360);
     assert.equal(await page.evaluate('document.documentElement.dataset.theme'), 'dark');
     await page.evaluate(`document.getElementById('more').click()`);

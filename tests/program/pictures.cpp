@@ -226,7 +226,7 @@ TEST_CASE("program: what pictures show is chosen by words", "[program]") {
     REQUIRE(picture_of(run + "--no-legend") != plain);
     REQUIRE(picture_of(run + "--color angular-momentum --color-scale log") != plain);
     REQUIRE(picture_of(run + "--show contacts,velocities,joints,boxes,cells,sleep").size() > 100);
-    require_refused("rest --show bodies", {"--show", "contacts, velocities, joints, boxes, cells, sleep, none"});
+    require_refused("rest --show bodies", {"--show", "contacts, velocities, joints, boxes, cells, sleep, parts, none"});
     require_refused("rest --color-scale cubic", {"--color-scale", "auto, linear, root, log"});
     require_refused("rest --steps 1 --frames none --color-scale log --color-range 0:5", {"above 0", "--color-range"});
     require_refused("rest --png-depth 12", {"--png-depth"});

@@ -29,8 +29,8 @@ std::vector<std::string> demo_names() {
 }
 
 std::string few_bodies(const std::string& name) {
-    const bool many =
-        name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "terrain" || name == "ragdolls";
+    const bool many = name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "terrain" ||
+                      name == "ragdolls" || name == "hopper" || name == "ballast";
     return many ? " --bodies 300" : "";
 }
 
@@ -71,12 +71,13 @@ double extent(const Body& body, vec3 along) {
     return std::abs(inside.x) * h.x + std::abs(inside.y) * h.y + std::abs(inside.z) * h.z;
 }
 
-// Separating axis test (with tolerance for touching bodies). Candidates are the bodies' axes, their cross products
-// and the line of centres, which suffices for boxes and for all placements of the demos.
+// Separating axis test (with tolerance for touching bodies). Candidates are the axes of the world and of the bodies, their cross
+// products and the line of centres, which suffices for boxes and for all placements of the demos.
 bool parted(const Body& a, const Body& b) {
     std::vector<vec3> directions = {b.position - a.position};
     const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (const vec3& axis : axes) {
+        directions.push_back(axis);
         directions.push_back(scree::physics::rotate(a.orientation, axis));
         directions.push_back(scree::physics::rotate(b.orientation, axis));
         for (const vec3& other : axes) {

@@ -200,7 +200,7 @@ except MemoryError as error:
                 find()
 
     def test_missing_files_are_of_one_kind(self):
-        for ending in ("json", "urdf", "xml", "glb", "gltf", "obj", "stl"):
+        for ending in ("json", "urdf", "xml", "glb", "gltf", "usda", "usdc", "usdz", "obj", "stl"):
             with self.assertRaises(FileNotFoundError):
                 scree.load(f"/nowhere/no.{ending}")
 

@@ -80,6 +80,47 @@ class Building(unittest.TestCase):
         self.assertEqual(scene.copy().hash, scene.hash)
 
 
+
+class Grains(unittest.TestCase):
+    region = {"box": {"low": (-.5, 0, -.5), "high": (.5, 1, .5)}}
+
+    def test_they_follow_a_curve_and_have_ids(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        ids = scene.add_grains(sieve=[(.02, 0), (.03, 40), (.06, 100)], region=self.region, count=500, friction=.7,
+                               shapes=[{"form": {"polyhedron": {"elongation": .7}}}])
+        np.testing.assert_array_equal(ids, np.arange(1, 501))
+        self.assertEqual(scene.notes, [])
+        self.assertEqual(len(scene.add_grains(sieve=np.array([(.02, 0), (.06, 50), (.1, 100)]), region=self.region, count=5)), 5)
+        self.assertIn("5 grains miss the sieve curve by", scene.notes[0])
+        world = scree.World(scene, backend="cpu")
+        self.assertEqual(len(world.position), 506)
+
+    def test_they_are_poured_during_a_run(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        rain = {"name": "rain", "size": .05, "count": 40, "region": {"box": {"low": (-.5, 2, -.5), "high": (.5, 2.5, .5)}}}
+        self.assertEqual(len(scene.add_grains(**rain, count_rate=100, start=.1)), 0)
+        world = scree.World(scene, backend="cpu")
+        world.run(seconds=1)
+        self.assertEqual(len(world.position), 41)
+        self.assertTrue((world.position[1:, 1] < 2).all())
+
+    def test_errors_name_the_place(self):
+        scene = scree.Scene()
+        for keys, place in (({"size": .05}, "/grains/0"), ({"size": -1, "count": 3}, "/grains/0/size"),
+                            ({"size": 3, "count": 3}, "/grains/0/region"),
+                            ({"sieve": [(.1, 0), (.05, 100)], "count": 3}, "/grains/0/sieve/1/size")):
+            with self.assertRaises(scree.SceneError) as caught:
+                scene.add_grains(region=self.region, **keys)
+            self.assertEqual(caught.exception.pointer, place)
+        self.assertEqual(len(scene), 0)
+        with self.assertRaisesRegex(ValueError, "sieve: is"):
+            scene.add_grains(sieve=[.1, .2], region=self.region, count=3)
+        with self.assertRaises(TypeError):
+            scene.add_grains(sizes=.1, region=self.region, count=3)
+
+
 class Imports(unittest.TestCase):
     def test_a_robot_of_a_urdf_and_one_of_mjcf(self):
         folder = os.path.join(os.environ["SCREE_SOURCE"], "tests", "imports")
@@ -98,6 +139,23 @@ class Imports(unittest.TestCase):
             scree.load(os.path.join(folder, "quadruped.xml"), strict=True)
         with self.assertRaisesRegex(ValueError, "axes: is"):
             scree.load(os.path.join(folder, "quadruped.xml"), axes="z")
+
+    def test_a_set_of_usd(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "set.usda")
+            with open(path, "w") as file:
+                file.write('#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = "Z"\n)\ndef Sphere "ball" (\n    prepend apiSchemas = '
+                           '["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]\n)\n{\n    double radius = 25\n'
+                           '    double3 xformOp:translate = (0, 0, 400)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+                           'def DistantLight "sun" {}\n')
+            world = scree.World(scree.load(path), backend="cpu")
+            ball = world["/ball"]
+            np.testing.assert_allclose(world.position[ball], (0, 4, 0), atol=1e-6)
+            self.assertTrue(any("/sun: DistantLight" in note for note in scree.load(path).notes))
+            world.run(seconds=.5)
+            self.assertAlmostEqual(world.position[ball][1], 4 - 9.81 / 8, delta=.05)
+            with self.assertRaisesRegex(scree.SceneError, "/sun"):
+                scree.load(path, strict=True)
 
     def test_a_broken_robot_names_file_and_line(self):
         with tempfile.TemporaryDirectory() as folder:

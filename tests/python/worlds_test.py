@@ -117,6 +117,25 @@ class SameBits(unittest.TestCase):
         self.assertEqual(other.state_hash(), end)
 
 
+class Scripted(unittest.TestCase):
+    @unittest.skipUnless(PROGRAM, "SCREE_PROGRAM_PATH is not set")
+    def test_a_world_that_follows_the_fountain_has_the_programs_bits(self):
+        made = subprocess.run([PROGRAM, "run", "fountain", "--bodies", "300", "--steps", "25", "--backend", "cpu", "--report", "-", "--quiet"],
+                              stdout=subprocess.PIPE, check=False)
+        world = scree.World(scree.demo("fountain", bodies=300), backend="cpu")
+        before = len(world.position)
+        world.follow_demo("fountain", bodies=300)
+        world.step(25)
+        self.assertEqual(world.state_hash(), json.loads(made.stdout)["state_hash"])
+        after = len(world.position)
+        self.assertEqual(after, before + 3 * (300 // 36))
+        world.follow_demo(None)
+        world.step(12)
+        self.assertEqual(len(world.position), after)
+        with self.assertRaisesRegex(ValueError, "fontain"):
+            world.follow_demo("fontain")
+
+
 class Bulk(unittest.TestCase):
     def test_set_and_read_in_the_order_of_ids(self):
         for backend in backends():

@@ -45,7 +45,8 @@ export class Browser {
     this.child.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId })}\0`);
     return new Promise((done, failed) => this.waiting.set(id, { done, failed }));
   }
-  async page(url, { width = 1280, height = 720, scale = 1, touch = false, dark = false, still = true } = {}) {
+  async page(url, { width = 1280, height = 720, scale = 1, touch = false, dark = false, still = true,
+    ready = 'window.scree && window.scree.state().ready && window.scree.state().pictures > 0' } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, targetId, sessionId);
@@ -54,7 +55,7 @@ export class Browser {
     if (touch) await page.send('Emulation.setTouchEmulationEnabled', { enabled: true });
     await page.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }] });
     await page.send('Page.navigate', { url: url + (still ? '#still' : '') });
-    await page.until('window.scree && window.scree.state().ready && window.scree.state().pictures > 0', 120000);
+    await page.until(ready, 120000);
     return page;
   }
   async stop() {

@@ -13,6 +13,7 @@
 #include "compute/checkpoint.h"
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/in_process.h"
+#include "compute/measures.h"
 #include "compute/world.h"
 
 namespace {
@@ -97,6 +98,22 @@ TEST_CASE("guide: contacts and events are read", "[guide]") {
     CHECK(hits == 2);                                                                     // of both boxes
     CHECK(points == 8);
     CHECK(forces[0].y == Approx(512 * 9.81).epsilon(0.05));
+}
+
+TEST_CASE("guide: grains are measured", "[guide]") {
+    scree::World world(row_of(3));
+    scree::MeasureRequest request;
+    request.regions.push_back({"core", scree::MeasureSphere{{0, 0.5f, 0}, 0.5f}});
+    request.bodies.push_back({.body = 0});  // force and torque on the ground
+    scree::Measuring measuring(request, world);
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        measuring.after_step(world);  // gates alone need it
+    }
+    const scree::Measures now = measuring.take(world);
+    const double pressure = now.regions[0].pressure, load = now.bodies[0].force.y;
+    CHECK(load == Approx(-3 * 512 * 9.81).epsilon(0.01));
+    CHECK(pressure > 0);
 }
 
 TEST_CASE("guide: queries find bodies", "[guide]") {

@@ -261,7 +261,7 @@ TEST_CASE("compounds, meshes and height fields that cannot be simulated are refu
     REQUIRE(says(refusal(bad), "/bodies/0/shape/compound/parts/1/shape/box/half_extents/1: must be between"));
     bad.parts[1].shape = Plane{};
     REQUIRE(says(refusal(bad), "/bodies/0/shape/compound/parts/1/shape/plane: "));
-    REQUIRE(says(refusal(floor_mesh(1, 2), Motion::dynamic), "/bodies/0/motion: a mesh must be \"fixed\" or \"kinematic\""));
+    REQUIRE(says(refusal(floor_mesh(1, 2), Motion::dynamic), "/bodies/0/shape/mesh: it is a sheet that encloses no volume"));
     Mesh mesh = floor_mesh(1, 2);
     mesh.triangles[3].y = 99;
     REQUIRE(says(refusal(mesh), "/bodies/0/shape/mesh/triangles/3: vertex 99 of 9"));

@@ -70,23 +70,29 @@ Placed give_shape(Body& body, const Shapes& shapes, const std::vector<std::optio
         if (!body.color) body.color = one->color;
     body.filter = filters[usual->collides_as];
     if (!usual->solid) body.role = usual->sensor ? Role::sensor : Role::drawn;
-    if (shapes.geometries.size() == 1) {
+    if (shapes.geometries.size() == 1 && !usual->parts) {
         body.shape = whole_shape(usual->shape);
         return shapes.placed[0];
     }
     Compound compound;
     for (std::size_t i = 0; i < shapes.geometries.size(); ++i) {
         const Geometry& one = *shapes.geometries[i];
-        Part& part = compound.parts.emplace_back();
-        part.shape = one.shape;
-        part.position = vec3(shapes.placed[i].position);
-        part.orientation = single_quaternion(shapes.placed[i].turn);
-        if (!one.solid) {
-            part.role = one.sensor ? Role::sensor : Role::drawn;
-            if (!one.sensor) continue;
+        const Placed& placed = shapes.placed[i];
+        for (std::size_t k = 0; k < (one.parts ? one.parts->parts.size() : 1); ++k) {
+            Part& part = compound.parts.emplace_back();
+            part.shape = one.parts ? one.parts->parts[k].shape : one.shape;
+            part.skinned = one.parts != nullptr;
+            part.position = vec3(placed.position);
+            part.orientation = single_quaternion(placed.turn);
+            if (!one.solid) {
+                part.role = one.sensor ? Role::sensor : Role::drawn;
+                if (!one.sensor) continue;
+            }
+            if (!same_material(one.material, usual->material)) part.material = one.material;
+            if (one.collides_as != usual->collides_as) part.filter = filters[one.collides_as];
         }
-        if (!same_material(one.material, usual->material)) part.material = one.material;
-        if (one.collides_as != usual->collides_as) part.filter = filters[one.collides_as];
+        if (one.parts && !one.sensor)
+            compound.skins.push_back({one.parts->skins[0].mesh, vec3(placed.position), single_quaternion(placed.turn)});
     }
     body.shape = std::move(compound);
     return {};
@@ -124,7 +130,9 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
         const Placed placed = all.root * all.zero[index] * one.placed;
         Body body{.name = one.name.empty() ? from.name : one.name,
                   .motion = Motion::fixed,
-                  .shape = one.terrain ? *one.terrain : whole_shape(one.shape)};
+                  .shape = one.terrain ? *one.terrain
+                           : one.parts ? Shape(*one.parts)
+                                       : whole_shape(one.shape)};
         place(body, placed);
         set_material(body, one.material);
         body.color = one.color;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "compute/scene/decomposed.h"
 #include "compute/scene/hull.h"
+#include "compute/scene/mesh.h"
 #include "host/files/file.h"
 
 namespace scree::imports {
@@ -25,6 +27,34 @@ std::vector<vec3> corners_of_group(const std::vector<vec3>& vertices, const std:
     std::vector<vec3> corners;
     for (const glm::dvec3& corner : form.vertices) corners.push_back(vec3(corner));
     return corners;
+}
+
+// A hull farther than this from its mesh, in longest extents of the mesh, gives way to convex parts.
+constexpr double far_from_convex = 0.05;
+
+// Null where the hull will do, or the triangles enclose nothing.
+std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
+                                               std::size_t first, std::size_t end, std::string& remark) {
+    Mesh skin;
+    std::map<std::uint32_t, std::uint32_t> places;
+    for (std::size_t t = first; t < end; ++t) {
+        glm::uvec3& made = skin.triangles.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            const auto [place, fresh] = places.try_emplace(triangles[t][k], static_cast<std::uint32_t>(skin.vertices.size()));
+            if (fresh) skin.vertices.push_back(vertices[triangles[t][k]]);
+            made[k] = place->second;
+        }
+    }
+    try {
+        if (hull_error(skin.vertices, skin.triangles) <= far_from_convex) return nullptr;
+        const std::shared_ptr<const ConvexParts> made = convex_parts(skin.vertices, skin.triangles, {});
+        if (remark.empty()) remark = summary_of(*made);
+        return std::make_shared<const Compound>(compound_of(*made, std::make_shared<const Mesh>(std::move(skin))));
+    } catch (const DecompositionError&) {
+        return nullptr;
+    } catch (const MeshError&) {
+        return nullptr;
+    }
 }
 
 }  // namespace
@@ -53,7 +83,7 @@ void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::
 }
 
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
-                     const std::vector<std::size_t>& groups) {
+                     const std::vector<std::size_t>& groups, bool parts) {
     MeshSolid solid;
     SolidMass of_hulls;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -61,6 +91,7 @@ MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::u
         try {
             solid.hulls.push_back(corners_of_group(vertices, triangles, groups[g], end));
             solid.groups.push_back(g);
+            solid.parts.push_back(parts ? parts_of_group(vertices, triangles, groups[g], end, solid.remark) : nullptr);
             of_hulls = sum_of(of_hulls, hull_mass(solid.hulls.back()));
         } catch (const HullError& error) {
             solid.flaw = error.what();
@@ -149,9 +180,10 @@ void Folder::give_colors(const std::string& path, const host::MeshFile& file, Me
     }
 }
 
-std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::string& name, const MeshMap& map, bool groups) {
+std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::string& name, const MeshMap& map, bool groups,
+                                              bool parts) {
     const std::string path = path_of(at, name);
-    std::shared_ptr<const MeshSolid>& made = meshes_[{path, map, groups}];
+    std::shared_ptr<const MeshSolid>& made = meshes_[{path, map, groups, parts}];
     if (made) return made;
     for (int k = 0; k < 3; ++k) {
         const double scale = glm::length(glm::row(map.linear, k));
@@ -162,7 +194,7 @@ std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::strin
         map_mesh(map, file.vertices, file.triangles);
         if (!groups || file.groups.empty()) file.groups = {0};
         if (file.groups.size() > most_groups) refuse(at, "\"" + name + "\" has more than 10000 groups");
-        MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups);
+        MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, parts);
         if (groups) give_colors(path, file, solid);
         made = std::make_shared<MeshSolid>(std::move(solid));
     } catch (const host::FileError& error) {

@@ -29,13 +29,15 @@ void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::
 
 // The convex hull of a mesh, or of each of its groups, and the mass properties of the mesh.
 struct MeshSolid {
-    std::vector<std::vector<vec3>> hulls;     // corners of each, m; none: the mesh is flat
-    std::vector<std::size_t> groups;          // of the mesh, that the hulls are of
-    std::vector<std::optional<vec3>> colors;  // of the hulls, sRGB; of folder.mesh() with groups alone
-    std::string lost_colors;                  // why some are not known
-    std::string flaw;                         // why there is none
-    SolidMass mass;                           // of what the triangles enclose, density 1; of the hulls if they enclose nothing
-    bool encloses = true;                     // whether the triangles do
+    std::vector<std::vector<vec3>> hulls;                // corners of each, m; none: the mesh is flat
+    std::vector<std::shared_ptr<const Compound>> parts;  // in place of a hull far from its mesh; null: the hull will do
+    std::string remark;                                  // on the first of these
+    std::vector<std::size_t> groups;                     // of the mesh, that the hulls are of
+    std::vector<std::optional<vec3>> colors;             // of the hulls, sRGB; of folder.mesh() with groups alone
+    std::string lost_colors;                             // why some are not known
+    std::string flaw;                                    // why there is none
+    SolidMass mass;        // of what the triangles enclose, density 1; of the hulls if they enclose nothing
+    bool encloses = true;  // whether the triangles do
 };
 
 // With symbolic links followed, as far as it exists.
@@ -51,9 +53,10 @@ public:
     // Bytes of a file that `at` names, and the name to show. Refused outside the folders that may be read.
     std::string bytes(const Origin& at, const std::string& name);
     std::string path_of(const Origin& at, const std::string& name);
-    // A mesh; of an OBJ file with groups, one hull for each if `groups`, with colours. Cached.
-    std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const MeshMap& map = {},
-                                          bool groups = false);
+    // A mesh; of an OBJ file with groups, one hull for each if `groups`, with colours; if `parts`, convex parts where a hull is
+    // far from its mesh. Cached.
+    std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const MeshMap& map = {}, bool groups = false,
+                                          bool parts = false);
 
 private:
     std::filesystem::path resolved(const Origin& at, const std::string& name);
@@ -64,12 +67,12 @@ private:
     std::filesystem::path folder_;
     std::map<std::string, std::filesystem::path> packages_;
     bool allow_outside_;
-    std::map<std::tuple<std::string, MeshMap, bool>, std::shared_ptr<const MeshSolid>> meshes_;
+    std::map<std::tuple<std::string, MeshMap, bool, bool>, std::shared_ptr<const MeshSolid>> meshes_;
     std::uintmax_t read_ = 0;  // bytes so far
 };
 
 // Of vertices and triangles that are in memory.
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
-                     const std::vector<std::size_t>& groups);
+                     const std::vector<std::size_t>& groups, bool parts = false);
 
 }  // namespace scree::imports

@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene_file/import/joint_axes.h"
 
 namespace scree::imports {
 
 namespace {
 
-struct GltfAxes {
-    Axis linear[3], angular[3];
-};
-
-void read_limit(GltfValue limit, GltfAxes& axes) {
+void read_limit(GltfValue limit, JointAxes& axes) {
     constexpr double bound = static_cast<double>(unlimited);
     const double least = limit.number("min", -bound), most = limit.number("max", bound);
     if (least > most) limit.refuse("\"min\" is above \"max\"");
@@ -39,7 +36,7 @@ void read_limit(GltfValue limit, GltfAxes& axes) {
     limit.finish();
 }
 
-void read_drive(GltfValue drive, GltfAxes& axes) {
+void read_drive(GltfValue drive, JointAxes& axes) {
     const bool angular = drive.word("type", {"linear", "angular"}, 0) == 1;
     if (drive.word("mode", {"force", "acceleration"}, 0) == 1)
         drive.refuse("drives by acceleration, which scree's motors do not");
@@ -65,25 +62,6 @@ void read_drive(GltfValue drive, GltfAxes& axes) {
     }
 }
 
-// One free axis: a hinge or slider about or along x, to which the frame is turned.
-JointKind kind_of(const GltfAxes& axes, dquat& turn) {
-    int free_linear = -1, free_angular = -1, count = 0;
-    for (int k = 0; k < 3; ++k) {
-        if (!axes.linear[k].locked) free_linear = k, ++count;
-        if (!axes.angular[k].locked) free_angular = k, ++count;
-    }
-    if (count == 0) return Fixed{};
-    if (count == 1) {
-        const int k = std::max(free_linear, free_angular);
-        dmat3 cycled(0);  // its axis first, the others in order
-        for (int i = 0; i < 3; ++i) cycled[i][(k + i) % 3] = 1;
-        turn = glm::normalize(turn * glm::quat_cast(cycled));
-        if (free_angular >= 0) return Hinge{axes.angular[k]};
-        return Slider{axes.linear[k]};
-    }
-    return SixDof{axes.linear[0], axes.linear[1], axes.linear[2], axes.angular[0], axes.angular[1], axes.angular[2]};
-}
-
 }  // namespace
 
 void add_gltf_joints(Scene& scene, const std::vector<std::pair<std::size_t, GltfValue>>& joints, const GltfValue& kinds,
@@ -95,7 +73,7 @@ void add_gltf_joints(Scene& scene, const std::vector<std::pair<std::size_t, Gltf
         if (kind == none_given || other == none_given) value.refuse("needs \"connectedNode\" and \"joint\"");
         if (!nodes[other].reached) value.refuse("\"connectedNode\" is not part of the scene");
         GltfValue described = kinds.at(kind);
-        GltfAxes axes;
+        JointAxes axes;
         const GltfValue limits = described.at("limits"), drives = described.at("drives");
         for (std::size_t i = 0; i < limits.size(); ++i) read_limit(limits.at(i), axes);
         for (std::size_t i = 0; i < drives.size(); ++i) read_drive(drives.at(i), axes);
@@ -104,7 +82,7 @@ void add_gltf_joints(Scene& scene, const std::vector<std::pair<std::size_t, Gltf
         joint.collide = value.flag("enableCollision", false);
         value.finish();
         dquat added(1, 0, 0, 0);
-        joint.kind = kind_of(axes, added);
+        joint.kind = joint_of(axes, added);
         const auto end = [&](std::size_t at, std::size_t& body, vec3& anchor, vec4& frame) {
             if (!keeps_right_angles(nodes[at].world) || !(glm::determinant(dmat3(nodes[at].world)) > 0))
                 value.refuse("the frame of node " + std::to_string(at) +

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/portable_math.h"
 #include "compute/scene_file/import/gltf_joints.h"
 #include "compute/scene_file/import/gltf_materials.h"
 #include "compute/scene_file/import/gltf_shapes.h"
+#include "compute/scene_file/import/srgb.h"
 #include "host/files/file.h"
 #include "host/files/mesh_file.h"
 
@@ -73,15 +73,6 @@ private:
     std::vector<Body> surfaces_;                              // static triangle meshes
     Model model_;
 };
-
-// Encodes linear light, IEC 61966-2-1.
-vec3 srgb_of(vec3 linear) {
-    for (int k = 0; k < 3; ++k) {
-        const float x = std::clamp(linear[k], 0.0f, 1.0f);
-        linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * portable::pow(x, 1.0f / 2.4f) - 0.055f;
-    }
-    return linear;
-}
 
 // A node that a list names.
 std::size_t Gltf::child_of(const GltfValue& list, std::size_t i) const {
@@ -220,11 +211,14 @@ void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
     }
     if (hull) file.groups = {0};
     if (!hull) geometry.note("", "collides as the convex hull of each of its meshes");
-    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups);
+    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, !hull);
     if (!solid.flaw.empty()) geometry.refuse("its mesh has no convex hull: " + solid.flaw);
-    for (const auto& corners : solid.hulls) {
-        like.shape = Hull{corners};
-        if (like.solid) body.mass = sum_of(body.mass, placed_mass(scaled_mass(hull_mass(corners), default_density), like.placed));
+    if (!solid.remark.empty()) geometry.note("", solid.remark);
+    for (std::size_t i = 0; i < solid.hulls.size(); ++i) {
+        like.shape = Hull{solid.hulls[i]};
+        like.parts = solid.parts[i];
+        const SolidMass mass = like.parts && solid.hulls.size() == 1 && solid.encloses ? solid.mass : hull_mass(solid.hulls[i]);
+        if (like.solid) body.mass = sum_of(body.mass, placed_mass(scaled_mass(mass, default_density), like.placed));
         body.geometries.push_back(like);
     }
 }

@@ -70,14 +70,14 @@ struct CapsuleSide {
 
 class ShapeMaker {
 public:
-    ShapeMaker(const GltfValue& sizes, const glm::dmat4& frame) : sizes_(sizes), frame_(frame) {}
+    ShapeMaker(const ShapeNote& note, const glm::dmat4& frame) : note_(note), frame_(frame) {}
 
     void add_box(const dvec3& size) {
         if (keeps_right_angles(frame_)) return add(Box{vec3(0.5 * size * scale_of(frame_))}, placed_of(frame_));
         std::vector<dvec3> corners;
         for (int k = 0; k < 8; ++k) corners.push_back(0.5 * size * dvec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
         add_hull(corners);
-        sizes_.note("node", "shears the box, which becomes a hull");
+        note_("node", "shears the box, which becomes a hull");
     }
 
     // The image of a ball is an ellipsoid; where the map shears, its axes are the principal ones of the map and its transpose.
@@ -139,9 +139,8 @@ public:
         if (low) add_ball({0, -0.5 * height, 0}, bottom);
         if (high) add_ball({0, 0.5 * height, 0}, top);
         const bool exact = !side.is_there || add_frustum(side.from, side.to, side.bottom, side.top);
-        sizes_.note("capsule", exact
-                                   ? "of unlike radii or scales becomes two balls or ellipsoids and what lies between them"
-                                   : "of unlike radii or scales becomes two balls or ellipsoids, and a hull of 31 sides between");
+        note_("capsule", exact ? "of unlike radii or scales becomes two balls or ellipsoids and what lies between them"
+                               : "of unlike radii or scales becomes two balls or ellipsoids, and a hull of 31 sides between");
     }
 
     // Infinite: its normal maps by the inverse transpose.
@@ -160,7 +159,7 @@ private:
         add(hull, {dvec3(frame_[3]), {1, 0, 0, 0}});
     }
 
-    const GltfValue& sizes_;
+    const ShapeNote& note_;
     const glm::dmat4& frame_;
 };
 
@@ -174,51 +173,66 @@ SolidMass capsule_mass(double height, double bottom, double top) {
 
 }  // namespace
 
+GltfShape stretched_shape(const ImplicitShape& shape, const glm::dmat4& frame, const ShapeNote& note) {
+    using Kind = ImplicitShape::Kind;
+    ShapeMaker shapes(note, frame);
+    SolidMass mass;
+    const double low = -0.5 * shape.height, high = 0.5 * shape.height;
+    if (shape.kind == Kind::sphere) {
+        shapes.add_ball(dvec3(0), shape.bottom);
+        mass = turned_mass({ball_piece(-shape.bottom, shape.bottom, 0, shape.bottom)});
+    } else if (shape.kind == Kind::box) {
+        shapes.add_box(shape.size);
+        mass = primitive_mass(Box{vec3(0.5 * shape.size)});
+    } else if (shape.kind == Kind::plane) {
+        shapes.add_plane();
+    } else if (shape.kind == Kind::capsule) {
+        shapes.add_capsule(shape.height, shape.bottom, shape.top);
+        mass = capsule_mass(shape.height, shape.bottom, shape.top);
+    } else {
+        if (!shapes.add_frustum(low, high, shape.bottom, shape.top))
+            note("cylinder", "that tapers, or is unlike wide, deep or upright by its node, makes a hull of 31 sides");
+        mass = turned_mass({frustum_piece(low, high, shape.bottom, shape.top)});
+    }
+    if (mass.mass > 0) shapes.made.mass = stretched_mass(mass, dmat3(frame), dvec3(frame[3]));
+    return std::move(shapes.made);
+}
+
 GltfShape gltf_shape(GltfValue shape, const glm::dmat4& frame) {
     enum Type : std::size_t { sphere, box, capsule, cylinder, plane, none };
+    using Kind = ImplicitShape::Kind;
     static const std::vector<std::string> types = {"sphere", "box", "capsule", "cylinder", "plane"};
+    static const Kind kinds[] = {Kind::sphere, Kind::box, Kind::capsule, Kind::cylinder, Kind::plane};
     const std::size_t type = shape.word("type", types, none);
     if (type == none) shape.refuse("has no \"type\"");
     GltfValue sizes = shape.at(types[type].c_str());
-    ShapeMaker shapes(sizes, frame);
+    ImplicitShape made;
+    made.kind = kinds[type];
     const auto above_0 = [&](const char* key, double value) {
         if (!(value > 0)) sizes.refuse(std::string("\"") + key + "\" must be above 0 m");
         return value;
     };
-    SolidMass mass;
     if (type == sphere) {
-        const double radius = above_0("radius", sizes.number("radius", 0.5));
-        shapes.add_ball(dvec3(0), radius);
-        mass = turned_mass({ball_piece(-radius, radius, 0, radius)});
+        made.bottom = above_0("radius", sizes.number("radius", 0.5));
     } else if (type == box) {
         const auto given = sizes.numbers("size", 3);
-        const dvec3 size = given.empty() ? dvec3(1) : dvec3(given[0], given[1], given[2]);
-        for (int k = 0; k < 3; ++k) above_0("size", size[k]);
-        shapes.add_box(size);
-        mass = primitive_mass(Box{vec3(0.5 * size)});
+        made.size = given.empty() ? dvec3(1) : dvec3(given[0], given[1], given[2]);
+        for (int k = 0; k < 3; ++k) above_0("size", made.size[k]);
     } else if (type == plane) {
         if (sizes.has("sizeX") || sizes.has("sizeZ")) sizes.note("size", "of a plane is left out: it is infinite");
         sizes.number("sizeX", 0), sizes.number("sizeZ", 0);
         if (sizes.flag("doubleSided", false)) sizes.note("doubleSided", "is left out: what lies behind the plane is solid");
-        shapes.add_plane();
     } else {
-        const double height = above_0("height", sizes.number("height", 0.5));
-        const double bottom = sizes.number("radiusBottom", 0.25), top = sizes.number("radiusTop", 0.25);
-        if (bottom < 0 || top < 0) sizes.refuse("a radius is below 0 m");
-        above_0("radiusBottom", std::max(bottom, top));
-        if (type == capsule) {
-            shapes.add_capsule(height, bottom, top);
-            mass = capsule_mass(height, bottom, top);
-        } else {
-            if (!shapes.add_frustum(-0.5 * height, 0.5 * height, bottom, top))
-                sizes.note("cylinder", "that tapers, or is unlike wide, deep or upright by its node, makes a hull of 31 sides");
-            mass = turned_mass({frustum_piece(-0.5 * height, 0.5 * height, bottom, top)});
-        }
+        made.height = above_0("height", sizes.number("height", 0.5));
+        made.bottom = sizes.number("radiusBottom", 0.25), made.top = sizes.number("radiusTop", 0.25);
+        if (made.bottom < 0 || made.top < 0) sizes.refuse("a radius is below 0 m");
+        above_0("radiusBottom", std::max(made.bottom, made.top));
     }
-    if (mass.mass > 0) shapes.made.mass = stretched_mass(mass, dmat3(frame), dvec3(frame[3]));
+    GltfShape result =
+        stretched_shape(made, frame, [&](const char* kind, const std::string& reason) { sizes.note(kind, reason); });
     sizes.finish();
     shape.finish();
-    return std::move(shapes.made);
+    return result;
 }
 
 }  // namespace scree::imports

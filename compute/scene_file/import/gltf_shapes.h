@@ -3,6 +3,9 @@
 
 #include <vector>
 
+#include <functional>
+#include <string>
+
 #include "compute/scene_file/import/gltf_nodes.h"
 
 namespace scree::imports {
@@ -17,6 +20,15 @@ struct GltfShape {
 };
 
 // `frame`: of the shape in its body, with any scale and shear that is not flat. Notes what is not exact.
+// A shape in its own frame, along y.
+struct ImplicitShape {
+    enum class Kind { sphere, box, capsule, cylinder, plane } kind = Kind::box;
+    dvec3 size{1};                               // of a box, m
+    double height = 1, bottom = 0.5, top = 0.5;  // of the others; of a sphere `bottom` is its radius, m
+};
+using ShapeNote = std::function<void(const char* kind, const std::string& reason)>;
+GltfShape stretched_shape(const ImplicitShape& shape, const glm::dmat4& frame, const ShapeNote& note);
+
 GltfShape gltf_shape(GltfValue shape, const glm::dmat4& frame);
 
 }  // namespace scree::imports

@@ -7,6 +7,7 @@
 #include "compute/scene_file/import/mesh_scene.h"
 #include "compute/scene_file/import/mjcf.h"
 #include "compute/scene_file/import/urdf.h"
+#include "compute/scene_file/import/usd/usd_scene.h"
 
 namespace scree {
 
@@ -37,7 +38,7 @@ SceneDocument document_of_xml(imports::Folder& folder, const std::string& name, 
 
 bool is_imported(const std::filesystem::path& path) {
     const std::string ending = ending_of_import(path);
-    for (const char* known : {".xml", ".mjcf", ".urdf", ".stl", ".obj", ".gltf", ".glb"})
+    for (const char* known : {".xml", ".mjcf", ".urdf", ".stl", ".obj", ".gltf", ".glb", ".usda", ".usdc", ".usdz", ".usd"})
         if (ending == known) return true;
     return false;
 }
@@ -47,9 +48,11 @@ SceneDocument import_scene(const std::filesystem::path& path, const ImportOption
     imports::Folder folder(path, options);
     imports::Notes collected;
     const std::string ending = ending_of_import(path), name = path.filename().string();
-    const bool mesh = ending == ".stl" || ending == ".obj", gltf = ending == ".gltf" || ending == ".glb";
+    const bool mesh = ending == ".stl" || ending == ".obj", gltf = ending == ".gltf" || ending == ".glb",
+               usd = ending.starts_with(".usd");
     SceneDocument document = mesh   ? imports::scene_of_mesh(name, folder, options, collected)
                              : gltf ? imports::scene_of_gltf(name, folder, options, collected, most_bodies)
+                             : usd  ? imports::scene_of_usd(name, folder, options, collected, most_bodies)
                                     : document_of_xml(folder, name, options, collected, most_bodies);
     const std::vector<std::string> told = collected.told(options.strict);
     notes.insert(notes.end(), told.begin(), told.end());

@@ -1,4 +1,5 @@
-// Files of other programs as scenes: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL, OBJ, and glTF physics (.gltf, .glb).
+// Files of other programs as scenes: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL, OBJ, glTF physics (.gltf, .glb),
+// and UsdPhysics (.usda, .usdc, .usdz).
 #pragma once
 
 #include <filesystem>

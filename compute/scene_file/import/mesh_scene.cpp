@@ -7,7 +7,7 @@ namespace scree::imports {
 
 SceneDocument scene_of_mesh(const std::string& name, Folder& folder, const ImportOptions& options, Notes& notes) {
     const Origin at{folder.shown(), 0, ""};
-    const auto solid = folder.mesh(at, name, {}, true);
+    const auto solid = folder.mesh(at, name, {}, true, true);
     if (solid->hulls.empty()) refuse(at, "has no convex hull: " + solid->flaw);
     if (!solid->flaw.empty()) notes.add(at, "", "a group is left out: " + solid->flaw);
     if (!solid->encloses) notes.add(at, "", "its triangles enclose nothing, or face inwards; its mass is that of its hulls");
@@ -25,10 +25,12 @@ SceneDocument scene_of_mesh(const std::string& name, Folder& folder, const Impor
         Geometry one;
         one.origin = at;
         one.shape = Hull{solid->hulls[i]};
+        one.parts = solid->parts[i];
         one.color = solid->colors[i];
         body.geometries.push_back(std::move(one));
     }
-    if (solid->hulls.size() == 1)
+    if (!solid->remark.empty()) notes.add(at, "", solid->remark);
+    if (solid->hulls.size() == 1 && solid->remark.empty())
         notes.add(at, "", "is one body, its convex hull; groups (\"g\") of an OBJ file are convex parts");
     model.bodies.push_back(std::move(body));
     SceneDocument document;

@@ -79,7 +79,7 @@ private:
     void read_geom(const host::XmlElement& tree, const Where& where);
     void give_size(Element& element, std::size_t type, Geometry& geometry);
     MeshMap map_of(Element& asset);
-    std::shared_ptr<const MeshSolid> mesh_of(Element& geom);
+    std::shared_ptr<const MeshSolid> mesh_of(Element& geom, bool parts);
     std::shared_ptr<const Shape> terrain_of(Element& geom, Placed& placed);
     void give_surface(Element& element, Geometry& geometry);
     std::size_t class_of(Element& element, bool& solid);

@@ -81,7 +81,7 @@ MeshMap Mjcf::map_of(Element& asset) {
 }
 
 // The mesh that a geom names.
-std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom) {
+std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom, bool parts) {
     const std::string name = geom.text("mesh");
     const auto found = meshes_.find(name);
     if (found == meshes_.end()) geom.refuse("mesh", "there is no mesh \"" + name + "\"");
@@ -104,7 +104,7 @@ std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom) {
         for (std::uint32_t i = 0; cloud && i < points.size(); ++i) triangles.emplace_back(i, i, i);
         asset.finish();
         map_mesh(map, points, triangles);
-        MeshSolid solid = mesh_solid(points, triangles, {0});
+        MeshSolid solid = mesh_solid(points, triangles, {0}, parts && !cloud);
         solid.encloses = solid.encloses || cloud;
         return std::make_shared<MeshSolid>(std::move(solid));
     }
@@ -112,7 +112,7 @@ std::shared_ptr<const MeshSolid> Mjcf::mesh_of(Element& geom) {
     const std::string& folder = compiler_.meshes.empty() ? compiler_.assets : compiler_.meshes;
     if (!folder.empty() && !file.starts_with('/')) file = folder + "/" + file;
     asset.finish();
-    return folder_.mesh(asset.origin(), file, map);
+    return folder_.mesh(asset.origin(), file, map, false, parts);
 }
 
 void Mjcf::give_surface(Element& geom, Geometry& geometry) {
@@ -188,13 +188,15 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
     SolidMass mass;
     std::shared_ptr<const MeshSolid> solid;
     if (type == mesh) {
-        solid = mesh_of(geom);
+        solid = mesh_of(geom, geometry.solid);
         geom.pass({"size", "fromto"});
         if (solid->hulls.empty()) {
             if (geometry.solid) geom.refuse("mesh", "has no convex hull: " + solid->flaw);
             geom.note("mesh", "has no convex hull and is not drawn: " + solid->flaw);
         } else {
             geometry.shape = Hull{solid->hulls[0]};
+            geometry.parts = solid->parts[0];
+            if (!solid->remark.empty()) geom.note("mesh", solid->remark);
             mass = solid->mass;
             if (!solid->encloses) geom.note("mesh", "is open, or faces inwards; its mass is that of its hull");
             if (!geometry.solid) geom.note("mesh", "is drawn as its convex hull");

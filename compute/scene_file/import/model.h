@@ -20,10 +20,11 @@ struct Geometry {
     Origin origin;
     std::string name;
     SimpleShape shape = Box{};
-    std::shared_ptr<const Shape> terrain{};  // instead of it, a height field or mesh that nothing moves; null: none
-    Placed placed;                           // the shape's own frame in the body
-    bool solid = true;                       // else only drawn, or
-    bool sensor = false;                     // a sensor
+    std::shared_ptr<const Compound> parts{};  // instead of it, convex parts of a mesh, which is their skin; null: none
+    std::shared_ptr<const Shape> terrain{};   // instead of it, a height field or mesh that nothing moves; null: none
+    Placed placed;                            // the shape's own frame in the body
+    bool solid = true;                        // else only drawn, or
+    bool sensor = false;                      // a sensor
     Material material{};
     std::optional<vec3> color{};  // sRGB
     std::size_t collides_as = 0;  // class of Model::collides

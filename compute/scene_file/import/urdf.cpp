@@ -118,13 +118,14 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
         mesh.note("filename", "of another kind than .stl, .obj, .gltf and .glb is not drawn");
         return false;
     }
-    const auto solid = folder_.mesh(mesh.origin(), file, {diagonal(dvec3(scale[0], scale[1], scale[2]))}, true);
+    const auto solid = folder_.mesh(mesh.origin(), file, {diagonal(dvec3(scale[0], scale[1], scale[2]))}, true, like.solid);
     mesh.finish();
     if (solid->hulls.empty()) {
         if (like.solid) mesh.refuse("\"" + file + "\" has no convex hull: " + solid->flaw);
         mesh.note("filename", "has no convex hull and is not drawn: " + solid->flaw);
         return false;
     }
+    if (!solid->remark.empty()) mesh.note("filename", solid->remark);
     mesh.note("", like.solid ? "collides as the convex hull of each of its groups"
                              : "is drawn as the convex hull of each of its groups");
     if (like.solid) body.mass_of_shapes = sum_of(body.mass_of_shapes, placed_mass(scaled_mass(solid->mass, usual_density), at));
@@ -132,6 +133,7 @@ bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, Mode
     for (std::size_t i = 0; i < solid->hulls.size(); ++i) {
         Geometry one = like;
         one.shape = Hull{solid->hulls[i]};
+        one.parts = solid->parts[i];
         one.placed = at;
         if (!like.solid && !one.color) one.color = solid->colors[i];
         body.geometries.push_back(std::move(one));

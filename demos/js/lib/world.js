@@ -21,6 +21,11 @@ export function worldClass(library, Scene) {
     step(count = 1) {
       library.call('world_step', this.handle, BigInt(count), 0, 0);
     }
+    // Later steps perform what the program does in a run of this demo and is no part of its scene: the bodies of fountain are born and
+    // go. Undefined: nothing any more. Views are to be disposed before each step.
+    followDemo(name, { bodies = 0, seed = 1 } = {}) {
+      library.within((room) => library.call('world_follow_demo', this.handle, name === undefined ? 0 : room.text(name), bodies, BigInt(seed)));
+    }
     // steps, time (s), bodies, ...
     info() {
       return library.within((room) => {

@@ -6,8 +6,10 @@
 #include <array>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "compute/scene_file/scene_schema.h"
+#include "demos/film/usd_scene.h"
 #include "demos/program/commands/commands.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"
@@ -17,7 +19,8 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> of_other_commands = {".glb", ".gltf", ".usda", ".usd", ".png", ".exr", ".mp4", ".csv"};
+constexpr std::array<std::string_view, 9> of_other_commands = {".glb", ".gltf", ".usd", ".usdc", ".usdz",
+                                                               ".png", ".exr",  ".mp4", ".csv"};
 
 struct SceneExportOptions {
     SceneOptions scene;
@@ -25,20 +28,27 @@ struct SceneExportOptions {
     bool schema = false;
 };
 
+std::string usda_of(const LoadedScene& subject) {
+    std::vector<std::string> notes;
+    std::string text = scene_to_usda(subject.scene, notes);
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    return text;
+}
+
 void write_out(const SceneExportOptions& options) {
     if (options.scene.name.empty() && !options.schema)
         throw UsageError("export: name a demo (scree list), or ask for the --schema");
     const std::string ending = std::filesystem::path(options.output).extension().string();
     if (std::ranges::count(of_other_commands, ending) > 0)
         throw UsageError("export: -o " + options.output +
-                         ": what is written is a scene file, NAME.json; scree run has --export NAME.glb "
-                         "or .usda for animations, and --frames for pictures");
+                         ": what is written is a scene file, NAME.json, or NAME.usda; scree run has --export "
+                         "NAME.glb or .usda for animations, and --frames for pictures");
     std::string text;
     if (options.schema) {
         text = scene_schema();
     } else {
         const LoadedScene subject = load_subject(options.scene);
-        text = scene_to_json(document_of(subject));
+        text = ending == ".usda" ? usda_of(subject) : scene_to_json(document_of(subject));
     }
     if (options.output.empty() || options.output == "-") {
         fmt::print("{}", text);
@@ -54,8 +64,9 @@ void add_export(CLI::App& program, int&) {
     auto options = std::make_shared<SceneExportOptions>();
     command->add_option("scene", options->scene.name,
                         "Demo (see scree list), a scene file to rewrite, or a robot or mesh to translate: NAME.xml, "
-                        ".mjcf, .urdf, .gltf, .glb, .stl, .obj.");
-    command->add_option("-o,--output", options->output, "Output file. Default: the standard output.");
+                        ".mjcf, .urdf, .gltf, .glb, .usda, .usdc, .usdz, .stl, .obj.");
+    command->add_option("-o,--output", options->output,
+                        "Output file, NAME.json; or NAME.usda, with UsdPhysics. Default: the standard output.");
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& word) { options->scene.bodies = count_of(word); },
         "Number of bodies, such as 500, 10k or 1M. Default: the demo's own.");

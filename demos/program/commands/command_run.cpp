@@ -24,6 +24,7 @@
 #include "demos/program/options/output_check.h"
 #include "demos/program/outputs/checkpoints.h"
 #include "demos/program/outputs/export_file.h"
+#include "demos/program/outputs/measures_file.h"
 #include "demos/program/outputs/page_file.h"
 #include "demos/program/outputs/report.h"
 #include "demos/program/outputs/trace_file.h"
@@ -47,6 +48,7 @@ struct RunOptions {
     CheckpointOptions checkpoints;
     TrajectoryOptions trajectory;
     ExportOptions animation;
+    MeasureOptions measures;
     TraceOptions trace;
     std::shared_ptr<TraceFile> timeline = nullptr;  // what --trace asks for; may be null
     std::string report;
@@ -54,6 +56,7 @@ struct RunOptions {
     std::string input;            // file of recorded input; may be empty
     std::optional<Input> played;  // the recorded input
     std::optional<ResumedRun> resumed;
+    std::optional<MeasureRequest> measured;  // what the scene or --measures asks for
     bool quiet = false;
     std::string command_line;
     CopiesShown shown{};
@@ -151,30 +154,37 @@ public:
     Records(const RunOptions& options, const LoadedScene& subject, World& world)
         : animation_(make_animation(options.animation, world)) {
         if (!options.trajectory.file.empty()) trajectory_.emplace(options.trajectory, world);
+        if (!options.measures.table.empty() || !options.measures.vtk.empty())
+            measures_.emplace(options.measures, options.measured, options.copies.copy.value_or(0), options.pictures.fps);
         if (!options.pictures.html.empty()) page_ = make_page(options.pictures, options.shown, subject, world);
     }
     int steps_until_due(const World& world) const {
         int steps = std::numeric_limits<int>::max();
         if (trajectory_) steps = std::min(steps, trajectory_->steps_until_due(world));
         if (animation_) steps = std::min(steps, animation_.steps_until_due(world));
+        if (measures_) steps = std::min(steps, measures_->steps_until_due(world));
         if (page_) steps = std::min(steps, page_->steps_until_due());
         return steps;
     }
     void after_step(const World& world) {
         if (trajectory_) trajectory_->after_step(world);
         if (animation_) animation_.after_step(world);
+        if (measures_) measures_->after_step(world);
         if (page_) page_->after_step();
     }
     void finish() {
         if (trajectory_) trajectory_->finish();
         if (animation_) animation_.write();
+        if (measures_) measures_->finish();
         if (page_) page_->finish();
     }
+    int vtk_moments() const { return measures_ ? measures_->vtk_moments() : 0; }
     std::optional<PageFigures> page() const { return page_ ? std::optional(page_->figures()) : std::nullopt; }
 
 private:
     std::optional<Trajectory> trajectory_;
     Animation animation_;
+    std::optional<MeasuresFile> measures_;
     std::unique_ptr<PageRecording> page_;
 };
 
@@ -347,6 +357,7 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
         report.page_bytes = page->bytes;
         report.seconds_encoding_page = page->seconds_encoding;
     }
+    report.vtk_moments = records.vtk_moments();
     finishing.reset();
     if (options.timeline) world.set_timeline(nullptr);
     if (options.timeline) options.timeline->finish();
@@ -354,6 +365,10 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     report.name = subject.name;
     report.promised = subject.promise.has_value();
     measure(world, report);
+    if (!options.exchange && (options.measured || options.measures.any())) {
+        Measuring at_the_end(MeasureRequest{}, world, options.copies.copy.value_or(0));
+        report.grains = at_the_end.take(world).all;
+    }
     hold_to_soundness(options.played.has_value(), world, report);
     hold_to_recording(options, report);
     if (adviser) report.advice = adviser->advice(world, report.statistics);
@@ -439,6 +454,7 @@ int run(RunOptions options) {
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
     require_sense(options.copies, subject);
     require_moments(options, subject);
+    options.measured = measures_asked(options.measures, subject.measures, subject.scene);
     const VaryCopy vary = vary_of(options.copies, options.scene);
     if (options.copies.copies) subject.promise.reset();  // it is of the scene alone
     if (options.played) {                                // replay the commands; the demo's promise does not apply
@@ -544,6 +560,7 @@ void require_distinct_outputs(const RunOptions& options) {
                       {"--save", options.save},
                       {"--checkpoint", options.checkpoints.file},
                       {"--trajectory", options.trajectory.file},
+                      {"--measures-out", options.measures.table},
                       {"--export", options.animation.file},
                       {"--trace", options.trace.file}});
 }
@@ -553,6 +570,8 @@ void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) 
     const bool on_devices = options.machine.backend == "vulkan";
     if (!on_devices && command.count("--device") + command.count("--validate") != 0)
         throw UsageError("--distributed: --device and --validate are for ranks on devices, with --backend vulkan");
+    if (options.measures.any())
+        throw UsageError("--distributed: --measures, --measures-out and --vtk are for runs of one process; leave them out");
     if (command.count("--copies") != 0) throw UsageError("--distributed: not together with --copies");
 }
 
@@ -567,11 +586,14 @@ void make_silent(RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command);
-    const OutputFolder frames(options.pictures.frames);
+    const OutputFolder frames(options.pictures.frames), vtk(options.measures.vtk);
     require_distinct_outputs(options);
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
     require_sense(command, options.animation);
+    require_sense(command, options.measures);
+    if (!options.measures.vtk.empty() && command.count("--copies") != 0)
+        throw UsageError("--vtk: not together with --copies, which lie one on the other; run the scene alone");
     require_sense(command, options.trace);
     if (!options.checkpoints.resume.empty()) take_resumed(command, options);
     if (!options.input.empty()) {
@@ -581,6 +603,7 @@ int run(const CLI::App& command, RunOptions options) {
         throw UsageError(
             "run: name a demo (scree list) or a scene file, or give a recording with --input or a checkpoint with --resume");
     }
+    lay_over(options.animation, options.scene.name, options.scene.imported);
     options.advises = !options.quiet || !options.report.empty();
     options.draws = options.pictures.wanted();
     if (options.pictures.until && !options.scene.steps && !options.scene.seconds)
@@ -613,6 +636,7 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->checkpoints);
     add_options(*command, options->trajectory);
     add_options(*command, options->animation);
+    add_options(*command, options->measures);
     add_options(*command, options->trace);
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
@@ -646,6 +670,7 @@ void add_run(CLI::App& program, int& status) {
         "  scree run glass --html glass.html\n"
         "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
         "  scree run pile --bodies 10k --seconds 2 --trace trace.json\n"
+        "  scree run hopper.json --measures-out hopper.csv --vtk hopper\n"
         "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4\n"
         "  mpirun -n 4 scree run pile --bodies 100k --distributed\n"
         "  mpirun -n 2 scree run pile --bodies 100k --distributed --backend vulkan");

@@ -158,9 +158,9 @@ void add_options(CLI::App& command, ImportOptions& options) {
 
 void add_options(CLI::App& command, SceneOptions& options) {
     command
-        .add_option(
-            "scene", options.name,
-            "Demo (see scree list), scene file NAME.json, or a robot or mesh: NAME.xml, .mjcf, .urdf, .gltf, .glb, .stl, .obj.")
+        .add_option("scene", options.name,
+                    "Demo (see scree list), scene file NAME.json, or a robot or mesh: NAME.xml, .mjcf, .urdf, .gltf, .glb, "
+                    ".usda, .usdc, .usdz, .stl, .obj.")
         ->required();
     auto* steps =
         command.add_option("--steps", options.steps, "Number of steps.")->check(CLI::Range(1, 1000000000))->group("Simulation");

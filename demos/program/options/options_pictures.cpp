@@ -240,6 +240,8 @@ void PictureOptions::require_sense(const CLI::App& command) const {
         const std::string& group = option->get_group();
         if (option->count() == 0 || (group != "Pictures" && group != "Camera")) continue;
         if (!html.empty() && (group == "Camera" || is_of_pages(option->get_name()))) continue;
+        const CLI::Option* const vtk = command.get_option_no_throw("--vtk");
+        if (option->get_name() == "--fps" && vtk && vtk->count() > 0) continue;
         throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw" +
                          (is_of_pages(option->get_name()) || group == "Camera" ? ", or --html" : ""));
     }
@@ -286,7 +288,7 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "Overlays, separated by commas: contacts (points, with the normal force as a line), velocities (arrows, the way "
             "in 0.2 s), joints (anchors and axes; blue without force, yellow at ten times the lighter body's weight, red at a "
             "hundred times), boxes (AABBs over the next step), cells (occupied broadphase cells), sleep (sleepers dull and "
-            "blue), none. Default: the scene's, mostly none.")
+            "blue), parts (of meshes that move their convex parts), none. Default: the scene's, mostly none.")
         ->check(one_of(shown))
         ->delimiter(',')
         ->expected(1)

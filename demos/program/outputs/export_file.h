@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "compute/scene_file/import/import_options.h"
 #include "demos/film/animation.h"
 
 namespace CLI {
@@ -17,10 +18,15 @@ struct ExportOptions {
     int every = 1;     // steps
     bool any_number = false;
     int clip = 0;  // moments in each value clip of a .usda; 0: all are in the file
+    // The USD file that the scene is of, over which a .usda lies as a layer; empty, or "none": it stands alone.
+    std::string over{};
+    ImportOptions imported{};  // of that
 };
 void add_options(CLI::App& command, ExportOptions& options);
 // Throws UsageError for an option that means nothing, and for a file of another kind or that cannot be written.
 void require_sense(const CLI::App& command, const ExportOptions& options);
+// A .usda of a run of a USD file lies over that, unless it is told otherwise. Throws UsageError where it cannot.
+void lay_over(ExportOptions& options, const std::string& scene, const ImportOptions& imported);
 // What is written while a run steps.
 class Animation {
 public:

@@ -5,7 +5,7 @@
 
 #include "compute/tables/state.h"
 #include "demos/film/camera.h"
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 #include "demos/film/style.h"
 #include "demos/program/exit_status.h"
 #include "host/canvas/canvas.h"

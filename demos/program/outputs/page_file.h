@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/options/options.h"
 

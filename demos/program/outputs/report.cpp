@@ -12,6 +12,7 @@
 
 #include "compute/parallel/threads.h"
 #include "compute/schema/settings.h"
+#include "demos/film/measure_columns.h"
 #include "demos/program/outputs/table.h"
 #include "demos/program/progress.h"
 #include "host/processor.h"
@@ -83,6 +84,16 @@ nlohmann::ordered_json ranks_of(const RunReport& r) {
 nlohmann::ordered_json page_of(const RunReport& r) {
     if (r.page_frames == 0) return nullptr;
     return {{"frames", r.page_frames}, {"bytes", r.page_bytes}, {"seconds", r.seconds_encoding_page}};
+}
+
+nlohmann::ordered_json grains_of(const RunReport& r) {
+    if (!r.grains) return nullptr;
+    nlohmann::ordered_json json;
+    for (const auto& column : region_columns()) {
+        const std::vector<double> values = values_of(column, std::vector{*r.grains});
+        json[column.name] = column.width == 1 ? nlohmann::ordered_json(values[0]) : nlohmann::ordered_json(values);
+    }
+    return json;
 }
 
 nlohmann::ordered_json copies_of(const RunReport& r) {
@@ -167,6 +178,8 @@ std::string json_of(const RunReport& r) {
           {"draw", r.seconds_drawing},
           {"encode_wait", r.seconds_waiting}}},
         {"state_hash", hash_text(r.state_hash)},
+        {"grains", grains_of(r)},
+        {"vtk_moments", r.vtk_moments},
         {"copies", copies_of(r)},
         {"ranks", ranks_of(r)},
         {"advice", advice},
@@ -225,6 +238,8 @@ std::string summary_of(const RunReport& r) {
                          duration(r.seconds_total), duration(r.seconds_simulating), duration(r.seconds_drawing),
                          duration(r.seconds_waiting), r.frames / std::max(r.seconds_running, 1e-9)));
     }
+    if (r.grains) line("grains", remark_on(*r.grains));
+    if (r.vtk_moments > 0) line("VTK files", fmt::format("of {} moments", r.vtk_moments));
     for (const Advice& one : r.advice) line("advice", one.finding + ": " + one.remedy);
     if (r.rows.empty()) return text;
     std::vector<Cells> rows = {verdict_heading()};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/measures.h"
 #include "compute/world.h"
 #include "demos/program/advice/adviser.h"
 #include "demos/suite/promise.h"
@@ -57,6 +58,8 @@ struct RunReport {
         std::uint64_t peak_memory_bytes = 0;
     };
     std::vector<RankCost> ranks;
+    std::optional<RegionMeasures> grains;  // at the end, if the run measures
+    int vtk_moments = 0;
     std::vector<Row> rows;
 };
 

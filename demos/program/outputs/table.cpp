@@ -54,16 +54,18 @@ std::string markdown(const std::vector<Cells>& rows) {
     return text;
 }
 
+std::string csv_text(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == text.npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
 std::string csv(const std::vector<Cells>& rows) {
     std::string text;
     for (const Cells& row : rows) {
         for (std::size_t i = 0; i < row.size(); ++i) {
-            std::string cell = row[i];
-            if (cell.find_first_of(",\"\n") != cell.npos) {
-                for (std::size_t at = 0; (at = cell.find('"', at)) != cell.npos; at += 2) cell.insert(at, 1, '"');
-                cell = '"' + cell + '"';
-            }
-            text += (i ? "," : "") + cell;
+            text += (i ? "," : "") + csv_text(row[i]);
         }
         text += "\n";
     }

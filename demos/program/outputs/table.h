@@ -14,6 +14,7 @@ using Cells = std::vector<std::string>;
 std::string table(const std::vector<Cells>& rows);
 std::string markdown(const std::vector<Cells>& rows);
 std::string csv(const std::vector<Cells>& rows);  // RFC 4180
+std::string csv_text(const std::string& text);    // a cell: in quotes where it needs them
 
 // The rows of a verdict, ending in "pass" or "MISS"; `before` is prepended.
 Cells verdict_heading(Cells before = {});

@@ -13,6 +13,7 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/options/option_parsing.h"
 #include "demos/program/options/output_check.h"
+#include "demos/program/outputs/table.h"
 #include "host/files/growing_file.h"
 #include "host/files/npy_file.h"
 #include "shaders/physics/base/arithmetic.h"
@@ -77,14 +78,6 @@ private:
     host::NpzFile file_;
     std::size_t time_, ids_, exists_, position_, orientation_, velocity_, angular_velocity_, kinetic_, potential_, momentum_;
 };
-
-// In quotes where a name needs them (RFC 4180).
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == text.npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-}
 
 class CsvWriter final : public Writer {
 public:

@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "demos/film/page_recording.h"
+#include "demos/film/pages/page_recording.h"
+#include "demos/film/pages/viewer_page.h"
 #include "demos/film/style.h"
-#include "demos/film/viewer_page.h"
 #include "demos/program/backend.h"
 #include "demos/program/commands/commands.h"
 #include "demos/program/console.h"

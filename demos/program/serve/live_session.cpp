@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/outputs/page_file.h"

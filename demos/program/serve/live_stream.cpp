@@ -5,13 +5,17 @@
 #include <cstring>
 #include <utility>
 
-#include "demos/film/page_parts.h"
+#include "demos/film/pages/page_parts.h"
 
 namespace scree::demos {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// From so many bodies on frames may come near to what a viewer is to be sent. Then they are short for a while.
+constexpr std::size_t crowd = 20'000;
+constexpr double most_bytes_a_second = 20e6;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -27,7 +31,8 @@ LiveStream::LiveStream(World& world, PageOptions options, double seconds, Delive
     : options_(std::move(options)), deliver_(std::move(deliver)), chunks_(options_.shown) {
     for (std::size_t i = 0; i < lanes; ++i) {
         const double apart = seconds * static_cast<double>(std::size_t{1} << i);
-        lane_[i].units = units_of(world, options_, apart);
+        lane_[i].seconds = apart;
+        lane_[i].units = units_of(world, options_, apart, world.scene().bodies.size() >= crowd);
         lane_[i].encoder = std::make_unique<FrameEncoder>(lane_[i].units);
         ChunkBytes told;
         told.bytes = head_of(world, options_, lane_[i].units, apart, 0);
@@ -187,6 +192,10 @@ void LiveStream::encode(const World* world) {
         const double encoding = seconds_since(begun);
         const auto packing = Clock::now();
         const Message message = shared(packed_frame(block));
+        if (lane.units.crowd) {
+            const double part = static_cast<double>(message->size()) / (most_bytes_a_second * lane.seconds);
+            lane.encoder->set_short(part > (lane.encoder->is_short() ? 0.6 : 0.85));
+        }
         {
             const std::lock_guard lock(mutex_);
             ++figures_.frames;

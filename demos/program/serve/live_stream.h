@@ -17,10 +17,10 @@
 #include <thread>
 #include <vector>
 
-#include "demos/film/chunk_bytes.h"
-#include "demos/film/frame_encoder.h"
-#include "demos/film/page_recording.h"
-#include "demos/film/world_chunks.h"
+#include "demos/film/pages/chunk_bytes.h"
+#include "demos/film/pages/frame_encoder.h"
+#include "demos/film/pages/page_recording.h"
+#include "demos/film/pages/world_chunks.h"
 #include "host/canvas/camera.h"
 
 namespace scree::demos {
@@ -73,6 +73,7 @@ public:
 
 private:
     struct Lane {
+        double seconds = 0;  // from frame to frame
         FrameUnits units;
         std::unique_ptr<FrameEncoder> encoder;
         LevelTrack joints;

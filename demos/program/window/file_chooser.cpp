@@ -82,7 +82,8 @@ std::optional<std::string> FileChooser::lay_out(const std::string& message) {
         if (ImGui::Selectable((name + "/").c_str())) next = folder_ / name;
     for (const std::string& name : files_)
         if (ImGui::Selectable(name.c_str())) chosen = (folder_ / name).string();
-    if (files_.empty()) ImGui::TextDisabled("no scene files (.json, .xml, .mjcf, .urdf, .gltf, .glb, .stl, .obj) here");
+    if (files_.empty())
+        ImGui::TextDisabled("no scene files (.json, .xml, .mjcf, .urdf, .gltf, .glb, .usda, .usdc, .usdz, .stl, .obj) here");
     ImGui::EndChild();
     ImGui::End();
     if (next) go_to(*next);

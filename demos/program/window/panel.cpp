@@ -109,7 +109,8 @@ void Panel::show_overlays(PictureStyle& style) {
         const auto overlay = static_cast<Overlay>(i);
         bool on = shows(style, overlay);
         if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * ems(8.2f));
-        if (ImGui::Checkbox(fmt::format("{} ({})", overlay_words()[i], i + 4).c_str(), &on)) set_shown(style, overlay, on);
+        if (ImGui::Checkbox((i < 6 ? fmt::format("{} ({})", overlay_words()[i], i + 4) : overlay_words()[i]).c_str(), &on))
+            set_shown(style, overlay, on);
     }
 }
 

@@ -15,13 +15,14 @@ from scree._errors import CheckpointError, DeviceError, SceneError
 from scree._native import version as __version__
 from scree.camera import Camera, Picture, write_png
 from scree.joints import Axis, Ball, ConeTwist, Coupling, Distance, Fixed, Hinge, JointKind, Limits, Motor, SixDof, Slider, Spring
+from scree.measures import Measures, MeasureTable
 from scree.recording import Recording, View
 from scree.scene import Scene, demo, demos, from_json, load, schema
-from scree.shapes import (Box, Capsule, Compound, Cone, Cylinder, Ellipsoid, Filter, FilterGroups, Fracture, HeightField, Hull, Mesh, Part, Plane,
+from scree.shapes import (Box, Capsule, Compound, Cone, Cylinder, Decompose, Ellipsoid, Filter, FilterGroups, Fracture, HeightField, Hull, Mesh, Part, Plane,
                           Shape, Sphere, Tyre)
 from scree.world import DebugDrawing, EventKind, Export, Tables, World
 
-__all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Coupling", "Cylinder", "DebugDrawing", "DeviceError",
+__all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Coupling", "Cylinder", "DebugDrawing", "Decompose", "DeviceError",
            "Distance", "Ellipsoid", "EventKind", "Export", "Filter", "FilterGroups", "Fixed", "Fracture", "HeightField", "Hinge", "Hull", "JointKind", "Limits",
-           "Mesh", "Motor", "Part", "Picture", "Plane", "Recording", "Scene", "SceneError", "Shape", "SixDof", "Slider", "Sphere", "Spring", "Tables",
+           "MeasureTable", "Measures", "Mesh", "Motor", "Part", "Picture", "Plane", "Recording", "Scene", "SceneError", "Shape", "SixDof", "Slider", "Sphere", "Spring", "Tables",
            "Tyre", "View", "World", "__version__", "demo", "demos", "from_json", "load", "schema", "write_png"]

@@ -170,6 +170,9 @@ class Description:
     def add_event(self, event: str) -> None:
         self._add("events", event)
 
+    def add_grains(self, grains: str) -> int:
+        return self._add("grains", grains)
+
     def add_exclusion(self, a: int, b: int) -> None:
         self._add("exclusions", json.dumps([a, b]))
 
@@ -414,6 +417,9 @@ class World:
                     report(done, count)
         finally:
             self._stepping = False
+
+    def follow_demo(self, name: Optional[str], bodies: int, seed: int) -> None:
+        self._call(LIBRARY.scree_world_follow_demo, None if name is None else _text(name), bodies, seed)
 
     def _step_aside(self, batch: int) -> None:
         done = threading.Event()
@@ -723,6 +729,19 @@ class World:
 
     def sensed(self) -> _Array:
         return self._array(sensed_dtype, LIBRARY.scree_world_sensed)
+
+    # ---- measures
+    def set_measures(self, request: Optional[str], copy: int) -> None:
+        self._call(LIBRARY.scree_world_set_measures, None if request is None else _text(request), copy)
+
+    def measure(self) -> Tuple[Any, Dict[str, _Array]]:
+        """What was measured, and its columns."""
+        told = ctypes.c_char_p()
+        with self._calls:  # no other measure between these
+            self._call(LIBRARY.scree_world_measure, _byref(told))
+            about = json.loads(told.value or b"{}")
+            columns = {name: self._array(np.dtype("f8"), LIBRARY.scree_world_measured, name.encode()) for name in about["columns"]}
+        return about, columns
 
     # ---- joints and vehicles
     def joints(self) -> _Array:

@@ -77,7 +77,7 @@ class Scene(Bodies[_native.Description]):
         position: (3,) or (n, 3), of the centre of mass, m; of hulls, compounds and meshes of the origin of their points.
         orientation: (4,) or (n, 4), x, y, z, w.
         velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
-        motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
+        motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, height fields and meshes without decompose, dynamic for others.
         mass: kg, a number or (n,), in place of density: the scene gets the density that gives it.
         density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping (1/s), angular_damping (1/s), gravity_scale: numbers or (n,).
         name, filter, tyre, fracture, inertial, role ("sensor", "drawn"): of all, as every other key of a body in a scene file.
@@ -107,7 +107,8 @@ class Scene(Bodies[_native.Description]):
         bodies = count if count is not None else 1
         arrays = {key: vectors(value, bodies, _VECTORS.get(key, 0), key) for key, value in columns.items()}
         if motion is None:
-            motion = "fixed" if isinstance(shape, (Plane, Mesh, HeightField)) else "dynamic"
+            surface = isinstance(shape, (Plane, HeightField)) or (isinstance(shape, Mesh) and shape.decompose is None)
+            motion = "fixed" if surface else "dynamic"
         body = {"shape": shape, "motion": motion, **{key: value for key, value in fields.items() if value is not None}}
         first = self._native.add_bodies(json_text(body, f"/bodies/{len(self)}"), bodies, arrays)
         return first if count is None else np.arange(first, first + bodies, dtype=np.int64)
@@ -190,9 +191,31 @@ class Scene(Bodies[_native.Description]):
         require_keys(fields, _native.keys("fields"), "fields")
         self._native.set_part("fields", json_text(fields, "/fields"))
 
+    # ---- grains
+    def add_grains(self, *, sieve: Optional[Any] = None, **keys: Any) -> Ids:
+        """Adds grains whose sizes follow a sieve curve, with the keys of "grains" in a scene file.
+
+        sieve: (n, 2), size (m) and % of the mass that passes, ascending from 0 to 100; or size=, m, for one size.
+        region: {"box": {"low": (3,), "high": (3,)}} or {"cylinder": {"base": (3,), "radius": m, "height": m}}.
+        mass (kg), count or fill (part of the region's volume): how many. shapes, density, friction, seed, name and so on.
+        mass_rate (kg/s) or count_rate (1/s): they are poured into the region during the run, from start (s) on, with a velocity.
+
+        Returns the ids of grains that are there at the start; none for poured ones. `notes` tells of curves that few grains miss.
+        """
+        require_keys(keys, _native.keys("grains"), "grains")
+        given = {key: value for key, value in keys.items() if value is not None}
+        if sieve is not None:
+            points = floats(sieve, "sieve")
+            if points.ndim != 2 or points.shape[1] != 2:
+                raise ValueError(f"sieve: is (n, 2), size and % passing, not {points.shape}")
+            given["sieve"] = [{"size": float(size), "passing": float(passing)} for size, passing in points]
+        before = len(self)
+        self._native.add_grains(json_text(given, "/grains/0"))
+        return np.arange(before, len(self), dtype=np.int64)
+
     # ---- how it is run and shown
     def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:
-        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity.
+        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity, pour.
 
         scene.at(3, impulse={"body": "ball", "impulse": [900, 1500, 0]}), with the keys of scene files.
         """
@@ -301,8 +324,8 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
          ground: bool = False, keyframe: Union[str, int] = "", packages: Optional[Dict[str, str]] = None,
          allow_outside: bool = False) -> Scene:
     """Reads a scene file and the meshes that it names, or a file of another program: MJCF (.xml, .mjcf), URDF (.urdf, .xml), glTF
-    physics (.gltf, .glb), .stl, .obj. `notes` of the scene tells what of those was not translated, with file and line; strict
-    makes that an error.
+    physics (.gltf, .glb), UsdPhysics (.usda, .usdc, .usdz), .stl, .obj. `notes` of the scene tells what of those was not
+    translated, with file and line; strict makes that an error.
 
     axes: "y-up" turns scenes whose z axis points up; "file" keeps their axes, with gravity along -z. base: the root link of a
     URDF, "fixed" or "free"; left out: fixed, with a note. ground: adds a plane that the lowest point touches. keyframe: of an

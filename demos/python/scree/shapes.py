@@ -119,12 +119,23 @@ class Hull(Shape):
     points: Any = ()
 
 
+@dataclass(frozen=True)
+class Decompose(_Described):
+    """Convex parts of a mesh. error: greatest distance between the surfaces, in longest extents of the mesh; parts: at most that
+    many; vertices: of a part, at most 64.
+    """
+
+    error: float = 0.02
+    parts: int = 32
+    vertices: int = 64
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh(Shape):
-    """A triangle mesh, solid behind its faces; for fixed and kinematic bodies.
+    """A triangle mesh: of a fixed or kinematic body a surface, solid behind its faces; of a dynamic body a solid of convex parts.
 
     vertices: (n, 3), m; triangles: (m, 3), indices, counter-clockwise seen from outside. Or file: an OBJ, glTF or GLB file,
-    whose lengths are multiplied by scale.
+    whose lengths are multiplied by scale. decompose: how the parts are made, and a solid of a body that is fixed, too.
     """
 
     _key = "mesh"
@@ -132,6 +143,7 @@ class Mesh(Shape):
     triangles: Any = None
     file: Optional[str] = None
     scale: Optional[float] = None
+    decompose: Optional[Decompose] = None
 
     def to_dict(self) -> Dict[str, Any]:
         given = super().to_dict()

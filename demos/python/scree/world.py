@@ -18,6 +18,7 @@ from scree._arrays import (Bodies, Floats, Ids, count_of, each, floats, ids_of, 
                            number, require_keys, require_some, rotated, triple, turned, unit, vectors, whole)
 from scree.camera import Camera, Picture, Size
 from scree.joints import JointKind, Spring
+from scree.measures import Measures
 from scree.recording import Recording, View
 from scree.scene import Scene, load
 from scree.shapes import Filter, Shape, Vector
@@ -194,6 +195,11 @@ class World(Bodies[_native.World]):
             self._native.step(count, bar)
         finally:
             bar.close()
+
+    def follow_demo(self, name: Optional[str], bodies: int = 0, seed: int = 1) -> None:
+        """Later steps perform what the program does in a run of this demo and is no part of its scene: the bodies of "fountain" are
+        born and go. None: nothing any more."""
+        self._native.follow_demo(name, count_of(bodies, "bodies"), count_of(seed, "seed"))
 
     def run(self, seconds: float, progress: Optional[bool] = None) -> None:
         """Advances to the step nearest to that many seconds from now."""
@@ -546,6 +552,26 @@ class World(Bodies[_native.World]):
         """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts. ids of (copies, k): (copies, k, 3)."""
         named, shape = self._flat(ids)
         return self._native.touch_forces(named).reshape(*shape, 3)
+
+    def set_measures(self, *, regions: Any = (), gates: Any = (), bodies: Any = (), grid: Optional[typing.Mapping[str, Any]] = None,
+                     copy: int = 0) -> None:
+        """What measures() tells from now on, in the words of scene files ("measures").
+
+        regions: {"name": "core", "shape": {"box": {"lower": (x, y, z), "upper": (x, y, z)}}}, or a "cylinder" with "from", "to" and
+        "radius", or a "sphere" with "centre" and "radius". gates: {"name": "outlet", "centre": .., "u": .., "v": ..}, half edges
+        of a rectangle; flow along u x v is positive. bodies: ids, names, or {"body": id, "about": point of the torque}. grid:
+        {"lower": .., "upper": .., "cell": (dx, dy, dz)}. copy: whose grains count. Raises SceneError with the place of an error.
+        """
+        given = bodies.tolist() if isinstance(bodies, np.ndarray) else list(bodies)
+        loads = [one if isinstance(one, dict) else {"body": one} for one in given]
+        request: Dict[str, Any] = {"regions": list(regions), "gates": list(gates), "bodies": loads}
+        if grid is not None:
+            request["grid"] = grid
+        self._native.set_measures(json_text(request, "measures"), index(copy, "copy"))
+
+    def measures(self) -> Measures:
+        """Measures of the grains, all solid dynamic bodies, as they are now: see Measures. What set_measures() said, else the scene."""
+        return Measures(*self._native.measure())
 
     def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False,
                    sensors: bool = True) -> None:

@@ -39,18 +39,7 @@ void VulkanCanvas::Impl::make_layout() {
 
     const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, samplers},
                            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, BINDINGS - samplers}};
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = 1;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    VkDescriptorSetAllocateInfo allocation{};
-    allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    allocation.descriptorPool =
-        objects.make(vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool_info, "vkCreateDescriptorPool");
-    allocation.descriptorSetCount = 1;
-    allocation.pSetLayouts = &set_layout;
-    check(vk.vkAllocateDescriptorSets(device->handle(), &allocation, &set), "vkAllocateDescriptorSets");
+    set = objects.descriptors(set_layout, sizes);
 }
 
 // The buffer for a binding; uploads tables that are in host memory.

@@ -29,7 +29,8 @@ VulkanCanvas::Impl::Impl(std::shared_ptr<Device> opened, const ShapeInstances& s
     make_picture();
     make_pipelines();
     make_looks();
-    make_commands();
+    commands = objects.commands();
+    drawn = objects.fence();
     upload_glyphs();
 }
 
@@ -153,24 +154,6 @@ void VulkanCanvas::Impl::make_looks() {
         check(vk.vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &looks[i]), LOOKS[i]);
         objects.on_end([this, at = looks[i]] { device->vk().vkDestroyPipeline(device->handle(), at, nullptr); });
     }
-}
-
-void VulkanCanvas::Impl::make_commands() {
-    const VulkanFunctions& vk = device->vk();
-    VkCommandPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    info.queueFamilyIndex = device->queue_family();
-    pool = objects.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo allocation{};
-    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    allocation.commandPool = pool;
-    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocation.commandBufferCount = 1;
-    check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
-    VkFenceCreateInfo fence{};
-    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    drawn = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence, "vkCreateFence");
 }
 
 void VulkanCanvas::Impl::upload_glyphs() {

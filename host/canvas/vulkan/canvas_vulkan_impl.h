@@ -42,7 +42,6 @@ struct VulkanCanvas::Impl {
     std::array<ShadowMap, 2> shadow_maps;  // sun, sky
     Surface scene, target, glyphs;         // single-sample rendering of the bodies, final picture, glyph atlas
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
-    VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence drawn = VK_NULL_HANDLE;
     bool pending = false;  // a picture is being drawn
@@ -54,7 +53,6 @@ struct VulkanCanvas::Impl {
     void make_picture();
     void make_pipelines();
     void make_looks();
-    void make_commands();
     void upload_glyphs();
     VkDescriptorBufferInfo table_of(std::uint32_t binding, ColorBy by);
     void write_set(ColorBy by);

@@ -56,6 +56,45 @@ VkFramebuffer VulkanObjectPool::framebuffer(VkRenderPass pass, std::span<const V
     return make(vk.vkCreateFramebuffer, vk.vkDestroyFramebuffer, info, "vkCreateFramebuffer");
 }
 
+VkCommandBuffer VulkanObjectPool::commands() {
+    const VulkanFunctions& vk = device_->vk();
+    VkCommandPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    info.queueFamilyIndex = device_->queue_family();
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
+    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocation.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    check(vk.vkAllocateCommandBuffers(device_->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    return commands;
+}
+
+VkFence VulkanObjectPool::fence() {
+    VkFenceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    return make(device_->vk().vkCreateFence, device_->vk().vkDestroyFence, info, "vkCreateFence");
+}
+
+VkDescriptorSet VulkanObjectPool::descriptors(VkDescriptorSetLayout layout, std::span<const VkDescriptorPoolSize> sizes) {
+    const VulkanFunctions& vk = device_->vk();
+    VkDescriptorPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.maxSets = 1;
+    info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    info.pPoolSizes = sizes.data();
+    VkDescriptorSetAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    allocation.descriptorPool = make(vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, info, "vkCreateDescriptorPool");
+    allocation.descriptorSetCount = 1;
+    allocation.pSetLayouts = &layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    check(vk.vkAllocateDescriptorSets(device_->handle(), &allocation, &set), "vkAllocateDescriptorSets");
+    return set;
+}
+
 VkShaderModule VulkanObjectPool::shader(const char* name) {
     const VulkanFunctions& vk = device_->vk();
     const auto words = shaders::find(name);

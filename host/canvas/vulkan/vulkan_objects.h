@@ -43,6 +43,9 @@ public:
     Surface surface(const SurfaceShape& shape);
     VkFramebuffer framebuffer(VkRenderPass pass, std::span<const VkImageView> views, int width, int height);
     VkShaderModule shader(const char* name);  // by file name in shaders/render
+    VkCommandBuffer commands();               // a primary command buffer that can be recorded anew
+    VkFence fence();                          // unsignalled
+    VkDescriptorSet descriptors(VkDescriptorSetLayout layout, std::span<const VkDescriptorPoolSize> sizes);
     void on_end(std::function<void()> action) { ends_.push_back(std::move(action)); }
     const std::shared_ptr<Device>& device() const { return device_; }
 
