@@ -87,6 +87,7 @@ physics::uint sleep_steps_of(const Settings& settings) {
 
 void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies,
                             std::uint32_t ranks) {
+    check_couplings(scene);
     shares_meshes_ = copies > 1;
     std::vector<physics::BodyProperties>& properties = state_.properties;
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());

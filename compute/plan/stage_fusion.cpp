@@ -140,7 +140,7 @@ std::uint32_t coupled_rounds_of(std::span<const physics::Joint> joints, const ph
         column += axis_rounds + 6 * (axis_rounds + joint.fill_in * axis_rounds);
     std::uint32_t pairs = 0;  // of couplings, by rounds of the threads
     for (std::uint32_t g = 0; g < couplings; ++g) pairs += shared(g + 1);
-    return 8 * term_rounds * couplings + term_rounds * shared(6 * inner * couplings) + column * shared(couplings) +
+    return 8 * term_rounds * couplings + term_rounds * couplings * shared(6 * inner) + column * shared(couplings) +
            pairs * (term_rounds * term_rounds + axis_rounds * inner) + couplings * couplings * couplings / 4 +
            couplings * (axis_rounds * inner + 2 * couplings) + couplings * shared(6 * inner);
 }

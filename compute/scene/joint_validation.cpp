@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "compute/compile/joint_blocks.h"
 #include "compute/scene/double_quaternion.h"
 #include "compute/scene/validator.h"
 #include "compute/schema/check.h"
@@ -132,7 +131,6 @@ Frame frame_of(const Scene& scene, std::size_t body) {
 
 void check_joints(Scene& scene) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i) check_joint(scene, scene.joints[i], i);
-    check_couplings(scene);
 }
 void check_joint(const Scene& scene, Joint& joint, std::size_t index) {
     examine(Examination("joints", "joint", index, joint.name), joint, scene);

@@ -71,5 +71,5 @@ TEST_CASE("more couplings than a device's loops have rounds for give the same bi
     REQUIRE(found.coupled_rounds_at_once < physics::JOINT_ROUNDS);
     CHECK(found.threads_a_block == 0);
     CHECK(found.threads_a_small_block == 0);
-    require_equal(long_train(), 4);
+    require_equal(long_train(), 2);
 }

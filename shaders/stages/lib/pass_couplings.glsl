@@ -4,7 +4,8 @@
 #define SCREE_STAGES_PASS_COUPLINGS_GLSL
 
 // A coupling g is a joint of the block, from `first_coupling()` up to block_joints.
-shared uint is_unknown[MAX_COUPLED_BLOCK];  // of the equations of this round, by joint of the block
+shared uint is_unknown[MAX_COUPLED_BLOCK];    // of the equations of this round, by joint of the block
+shared uint touched[2u * MAX_COUPLED_BLOCK];  // of each coupling: the joints in whose rows its column is not 0, a bit each
 
 uint first_coupling() {
     return block_joints - joint_blocks.at[block].couplings;
@@ -143,8 +144,13 @@ float entry_between(uint g, uint other) {
 // Forward elimination of a coupling's column by the joints' factors.
 void eliminate_column(uint g) {
     uint inner = first_coupling();
+    touched[2u * g] = touched[2u * g + 1u] = 0u;
     for (uint j = 0u; j < inner; ++j) {
         uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
+        bool touches = false;
+        for (uint k = 0u; k < 6u; ++k) touches = touches || (has(own_axes, k) && column_of(g, 6u * j + k) != 0.0f);
+        if (!touches) continue;
+        touched[2u * g + (j >> 5)] |= 1u << (j & 31u);
         for (uint k = 0u; k < 6u; ++k) {
             if (!has(own_axes, k)) continue;
             float entry = column_of(g, 6u * j + k), inverse = pivots[6u * j + k];
@@ -167,13 +173,18 @@ void eliminate_column(uint g) {
 }
 // The entry with an earlier coupling, or its own, without what the rows of joints change.
 float eliminated_by_joints(uint g, float entry, uint with) {
-    uint inner = first_coupling();
-    for (uint j = 0u; j < inner; ++j)
-        for (uint k = 0u; k < 6u; ++k) {
-            if (!has(unknowns[j], k)) continue;
-            float own = column_of(g, 6u * j + k), other = column_of(with, 6u * j + k);
-            if (own != 0.0f && other != 0.0f) entry = less_multiple(entry, multiplier_of(other, pivots[6u * j + k]), own);
+    for (uint w = 0u; w < 2u; ++w) {
+        uint left = touched[2u * g + w] & touched[2u * with + w];
+        while (left != 0u) {
+            uint j = 32u * w + uint(findLSB(left));
+            left &= left - 1u;
+            for (uint k = 0u; k < 6u; ++k) {
+                if (!has(unknowns[j], k)) continue;
+                float own = column_of(g, 6u * j + k), other = column_of(with, 6u * j + k);
+                if (own != 0.0f && other != 0.0f) entry = less_multiple(entry, multiplier_of(other, pivots[6u * j + k]), own);
+            }
         }
+    }
     return entry;
 }
 // And without what the couplings before that one change.
@@ -190,12 +201,18 @@ void eliminate_coupling(uint g) {
         if (is_unknown[e] != 0u) put_column(g, 6u * e, eliminated_by_couplings(g, e));
     pivots[6u * g] = reciprocal(eliminated_by_couplings(g, g));
     float sum = solutions[6u * g];
-    for (uint j = 0u; j < inner; ++j)
-        for (uint k = 0u; k < 6u; ++k) {
-            if (!has(unknowns[j], k)) continue;
-            float own = column_of(g, 6u * j + k);
-            if (own != 0.0f) sum = less_multiple(sum, multiplier_of(own, pivots[6u * j + k]), solutions[6u * j + k]);
+    for (uint w = 0u; w < 2u; ++w) {
+        uint left = touched[2u * g + w];
+        while (left != 0u) {
+            uint j = 32u * w + uint(findLSB(left));
+            left &= left - 1u;
+            for (uint k = 0u; k < 6u; ++k) {
+                if (!has(unknowns[j], k)) continue;
+                float own = column_of(g, 6u * j + k);
+                if (own != 0.0f) sum = less_multiple(sum, multiplier_of(own, pivots[6u * j + k]), solutions[6u * j + k]);
+            }
         }
+    }
     for (uint e = inner; e < g; ++e)
         if (is_unknown[e] != 0u) sum = less_multiple(sum, multiplier_of(column_of(g, 6u * e), pivots[6u * e]), solutions[6u * e]);
     solutions[6u * g] = sum;
@@ -210,9 +227,9 @@ void substitute_couplings() {
         solutions[6u * g] = substituted(sum, pivots[6u * g]);
     }
 }
-void lessen_row(uint at) {
+void lessen_row(uint j, uint at) {
     for (uint g = first_coupling(); g < block_joints; ++g) {
-        if (is_unknown[g] == 0u) continue;
+        if (is_unknown[g] == 0u || !has(touched[2u * g + (j >> 5)], j & 31u)) continue;
         float entry = column_of(g, at);
         if (entry != 0.0f) solutions[at] = less_multiple(solutions[at], entry, solutions[6u * g]);
     }
@@ -221,10 +238,10 @@ void lessen_row(uint at) {
 // Between elimination and substitution of the joints.
 void solve_border() {
     uint inner = first_coupling(), rows = 6u * inner, all = block_joints - inner;
-    FOR_LANES(i, rows * all) {
-        uint g = inner + i / rows, at = i % rows, j = sixth_of(at), k = at - 6u * j;
-        if (is_unknown[g] != 0u && has(unknowns[j], k)) put_column(g, at, coupled_entry(j, k, g));
-    }
+    for (uint g = inner; g < block_joints; ++g) FOR_LANES(at, rows) {
+            uint j = sixth_of(at), k = at - 6u * j;
+            if (is_unknown[g] != 0u && has(unknowns[j], k)) put_column(g, at, coupled_entry(j, k, g));
+        }
     end_part();
     FOR_LANES(i, all) if (is_unknown[inner + i] != 0u) eliminate_column(inner + i);
     end_part();
@@ -244,7 +261,7 @@ void solve_border() {
     end_part();
     FOR_LANES(at, rows) {
         uint j = sixth_of(at);
-        if (has(unknowns[j], at - 6u * j)) lessen_row(at);
+        if (has(unknowns[j], at - 6u * j)) lessen_row(j, at);
     }
     end_part();
 }
