@@ -145,6 +145,37 @@ std::uint32_t coupled_rounds_of(std::span<const physics::Joint> joints, const ph
            couplings * (axis_rounds * inner + 2 * couplings) + couplings * shared(6 * inner);
 }
 
+// Loop rounds of a pass over a block.
+struct BlockRounds {
+    std::uint32_t most = 0;  // in each of the pass's rounds
+    std::uint32_t once = 0;
+    void take(const BlockRounds& other) {
+        most = std::max(most, other.most);
+        once = std::max(once, other.once);
+    }
+    bool fit() const { return most + once <= most_joint_rounds; }
+    std::uint32_t at_once() const {
+        return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u,
+                          physics::JOINT_ROUNDS);
+    }
+};
+BlockRounds rounds_of(std::span<const physics::Joint> joints, const physics::JointBlock& block, std::uint32_t threads) {
+    const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
+    std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
+    for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
+        const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
+        each += 4 * axis_rounds;                                // pushes to both bodies, twice
+        each += own_rounds;                                     // its own rows
+        each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
+        each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
+        each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
+    }
+    each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
+    each += coupled_rounds_of(joints, block, threads);
+    return {each, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints) +
+                      4 * term_rounds * block.couplings * block.joints};
+}
+
 }  // namespace
 
 JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks,
@@ -152,39 +183,23 @@ JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::sp
     constexpr std::uint32_t most_threads = 128, few_threads = 32;
     JointDispatches found;
     const std::uint32_t threads = subgroup > 0 ? subgroup : most_threads;
-    struct Rounds {
-        std::uint32_t most = 0;  // loop rounds of a round of a block
-        std::uint32_t once = 0;
-        std::uint32_t at_once() const {
-            return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u,
-                              physics::JOINT_ROUNDS);
-        }
-    } of_large, of_coupled;
+    BlockRounds of_large, of_coupled, of_coupled_singly;
     for (const physics::JointBlock& block : blocks) {
-        if (block.joints <= physics::SMALL_BLOCK_JOINTS && block.couplings == 0) {
+        if (block.couplings != 0) {
+            found.threads_a_coupled_block = threads;
+            of_coupled.take(rounds_of(joints, block, threads));
+            of_coupled_singly.take(rounds_of(joints, block, 1));
+        } else if (block.joints <= physics::SMALL_BLOCK_JOINTS) {
             found.threads_a_small_block = subgroup > 0 ? 1 : few_threads;
-            continue;
+        } else {
+            found.threads_a_block = threads;
+            of_large.take(rounds_of(joints, block, threads));
         }
-        (block.couplings != 0 ? found.threads_a_coupled_block : found.threads_a_block) = threads;
-        const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
-        std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
-        for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
-            const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
-            each += 4 * axis_rounds;                                // pushes to both bodies, twice
-            each += own_rounds;                                     // its own rows
-            each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
-            each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
-            each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
-        }
-        each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
-        each += coupled_rounds_of(joints, block, threads);
-        Rounds& rounds = block.couplings != 0 ? of_coupled : of_large;
-        rounds.most = std::max(rounds.most, each);
-        rounds.once = std::max(rounds.once, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints) +
-                                                4 * term_rounds * block.couplings * block.joints);
     }
     found.rounds_at_once = of_large.at_once();
-    found.coupled_rounds_at_once = of_coupled.at_once();
+    const bool singly = subgroup > 0 && found.threads_a_coupled_block > 0 && of_coupled_singly.fit();
+    if (singly) found.threads_a_coupled_block = 1;
+    found.coupled_rounds_at_once = (singly ? of_coupled_singly : of_coupled).at_once();
     return found;
 }
 
@@ -198,7 +213,7 @@ std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& join
         for (std::uint32_t done = 0; threads > 0 && done < physics::JOINT_ROUNDS; done += at_once) {
             Stage& part = dispatches.emplace_back(stage);
             part.way = way;
-            part.threads_an_item = threads;
+            part.threads_an_item = threads == 1 ? 0 : threads;
             part.pass |= done << 8 | std::min(at_once, physics::JOINT_ROUNDS - done) << 16;
             part.barrier_after = done + at_once < physics::JOINT_ROUNDS || stage.barrier_after;
         }
@@ -221,7 +236,8 @@ std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& join
     }
     add_rounds("", joints.threads_a_block, joints.rounds_at_once);
     if (coupled && !dispatches.empty()) dispatches.back().barrier_after = false;
-    add_rounds(".coupled", joints.threads_a_coupled_block, joints.coupled_rounds_at_once);
+    const bool singly = joints.threads_a_coupled_block == 1;
+    add_rounds(singly ? ".coupled_singly" : ".coupled", joints.threads_a_coupled_block, joints.coupled_rounds_at_once);
     return dispatches;
 }
 

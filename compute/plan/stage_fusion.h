@@ -23,7 +23,7 @@ struct JointDispatches {
     // Rounds of a block that is not small (1 to JOINT_ROUNDS) that one dispatch may run: all, unless hundreds of joints
     // are connected. lavapipe silently ends a shader's loops after 65,535 rounds in all.
     std::uint32_t rounds_at_once = physics::JOINT_ROUNDS;
-    std::uint32_t threads_a_coupled_block = 0;  // of blocks with couplings; 0: there are none
+    std::uint32_t threads_a_coupled_block = 0;  // of blocks with couplings; 1: a thread a block; 0: there are none
     std::uint32_t coupled_rounds_at_once = physics::JOINT_ROUNDS;
     bool operator==(const JointDispatches&) const = default;
 };

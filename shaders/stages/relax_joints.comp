@@ -5,6 +5,7 @@
 // variants: relax_joints.small -DSCREE_SMALL_BLOCKS
 // variants: relax_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
 // variants: relax_joints.coupled -DSCREE_COUPLED
+// variants: relax_joints.coupled_singly -DSCREE_COUPLED -DSCREE_SINGLY
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -3,6 +3,7 @@
 // variants: solve_joints.small -DSCREE_SMALL_BLOCKS
 // variants: solve_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
 // variants: solve_joints.coupled -DSCREE_COUPLED
+// variants: solve_joints.coupled_singly -DSCREE_COUPLED -DSCREE_SINGLY
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -26,9 +26,8 @@ LAWS_BEGIN
 
 CONSTANT uint COUPLING_MODE_SHIFT = 8u;    // in Joint.flags: 8 bits
 CONSTANT uint COUPLING_TERMS_SHIFT = 16u;  // 4 bits
-// Joints of a block with couplings, these included. The equations of a coupling have a float for each of their axes.
-CONSTANT uint MAX_COUPLED_BLOCK = 64u;
-CONSTANT uint COLUMN_IN_TILES = 324u;  // floats of JointEquations.tiles; the rest of the column is in `rows`
+// Joints of a block with couplings, these included: a coupling has a float for each of their axes, where a joint has its tiles.
+CONSTANT uint MAX_COUPLED_BLOCK = 54u;
 
 LAW uint terms_of_coupling(uint flags) {
     return (flags >> COUPLING_TERMS_SHIFT) & 15u;

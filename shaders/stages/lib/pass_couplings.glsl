@@ -4,8 +4,8 @@
 #define SCREE_STAGES_PASS_COUPLINGS_GLSL
 
 // A coupling g is a joint of the block, from `first_coupling()` up to block_joints.
-shared uint is_unknown[MAX_COUPLED_BLOCK];    // of the equations of this round, by joint of the block
-shared uint touched[2u * MAX_COUPLED_BLOCK];  // of each coupling: the joints in whose rows its column is not 0, a bit each
+BLOCK_SHARED uint is_unknown[MAX_COUPLED_BLOCK];    // of the equations of this round, by joint of the block
+BLOCK_SHARED uint touched[2u * MAX_COUPLED_BLOCK];  // of each coupling: the joints in whose rows its column is not 0, a bit each
 
 uint first_coupling() {
     return block_joints - joint_blocks.at[block].couplings;
@@ -17,17 +17,11 @@ uint joint_in_block(uint term) {
     return joint_of_term(term) - block_first_joint;
 }
 
-// The entry of its equation with row `at` of the block: 6 joint + axis.
-float column_of(uint g, uint at) {
-    if (at < COLUMN_IN_TILES) return joint_equations.at[block_first_joint + g].tiles[at];
-    return joint_equations.at[block_first_joint + g].rows[at - COLUMN_IN_TILES];
-}
-void put_column(uint g, uint at, float entry) {
-    if (at < COLUMN_IN_TILES)
-        joint_equations.at[block_first_joint + g].tiles[at] = entry;
-    else
-        joint_equations.at[block_first_joint + g].rows[at - COLUMN_IN_TILES] = entry;
-}
+// The entry of its equation with row `at` of the block, 6 joint + axis, is where a joint has its tiles.
+#define COLUMN(g, row) joint_equations.at[block_first_joint + (g)].tiles[row]
+
+// Calls for each axis of a set, ascending. Loops over six that drivers unroll took lavapipe a minute to compile.
+#define FOR_AXES(k, left, axes) for (uint left = (axes), k; left != 0u && (k = uint(findLSB(left))) < 32u; left &= left - 1u)
 
 float speed_of_row(uint joint, uint k) {
     uint j = joint - block_first_joint;
@@ -148,73 +142,60 @@ void eliminate_column(uint g) {
     for (uint j = 0u; j < inner; ++j) {
         uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
         bool touches = false;
-        for (uint k = 0u; k < 6u; ++k) touches = touches || (has(own_axes, k) && column_of(g, 6u * j + k) != 0.0f);
+        FOR_AXES(k, left, own_axes) touches = touches || COLUMN(g, 6u * j + k) != 0.0f;
         if (!touches) continue;
         touched[2u * g + (j >> 5)] |= 1u << (j & 31u);
-        for (uint k = 0u; k < 6u; ++k) {
-            if (!has(own_axes, k)) continue;
-            float entry = column_of(g, 6u * j + k), inverse = pivots[6u * j + k];
+        FOR_AXES(k, left, own_axes) {
+            float entry = COLUMN(g, 6u * j + k), inverse = pivots[6u * j + k];
             if (entry == 0.0f) continue;
-            for (uint n = k + 1u; n < 6u; ++n)
-                if (has(own_axes, n))
-                    put_column(
-                        g, 6u * j + n,
-                        less_multiple(column_of(g, 6u * j + n), multiplier_of(TILE(j, own_at + 6u * n + k), inverse), entry));
-            for (uint l = 0u; l < count; ++l) {
-                uint i = link_of(j, l), at = tile_at(j, 1u + l);
-                for (uint n = 0u; n < 6u; ++n)
-                    if (has(unknowns[i], n))
-                        put_column(
-                            g, 6u * i + n,
-                            less_multiple(column_of(g, 6u * i + n), multiplier_of(TILE(j, at + 6u * n + k), inverse), entry));
+            // of its own later rows, then of the joints linked with it
+            for (uint slot = 0u; slot <= count; ++slot) {
+                uint i = slot == 0u ? j : link_of(j, slot - 1u), at = tile_at(j, slot) + k;
+                uint rows = slot == 0u ? own_axes & (0xFFFFFFFEu << k) : unknowns[i];
+                FOR_AXES(n, more, rows)
+                COLUMN(g, 6u * i + n) = less_multiple(COLUMN(g, 6u * i + n), multiplier_of(TILE(j, at + 6u * n), inverse), entry);
             }
         }
     }
 }
+// Calls for the rows of joints in which the columns of both couplings may not be 0.
+#define FOR_TOUCHED(j, k, g, with)                                                                              \
+    for (uint w = 0u; w < 2u; ++w) FOR_AXES(bit, joints_left, touched[2u * (g) + w] & touched[2u * (with) + w]) \
+    for (uint j = 32u * w + bit, axes_left = unknowns[32u * w + bit], k;                                        \
+         axes_left != 0u && (k = uint(findLSB(axes_left))) < 32u; axes_left &= axes_left - 1u)
 // The entry with an earlier coupling, or its own, without what the rows of joints change.
 float eliminated_by_joints(uint g, float entry, uint with) {
-    for (uint w = 0u; w < 2u; ++w) {
-        uint left = touched[2u * g + w] & touched[2u * with + w];
-        while (left != 0u) {
-            uint j = 32u * w + uint(findLSB(left));
-            left &= left - 1u;
-            for (uint k = 0u; k < 6u; ++k) {
-                if (!has(unknowns[j], k)) continue;
-                float own = column_of(g, 6u * j + k), other = column_of(with, 6u * j + k);
-                if (own != 0.0f && other != 0.0f) entry = less_multiple(entry, multiplier_of(other, pivots[6u * j + k]), own);
-            }
-        }
+    FOR_TOUCHED(j, k, g, with) {
+        float own = COLUMN(g, 6u * j + k), other = COLUMN(with, 6u * j + k);
+        if (own != 0.0f && other != 0.0f) entry = less_multiple(entry, multiplier_of(other, pivots[6u * j + k]), own);
     }
     return entry;
 }
 // And without what the couplings before that one change.
 float eliminated_by_couplings(uint g, uint with) {
-    float entry = column_of(g, 6u * with);
+    float entry = COLUMN(g, 6u * with);
     for (uint e = first_coupling(); e < with; ++e)
         if (is_unknown[e] != 0u)
-            entry = less_multiple(entry, multiplier_of(column_of(with, 6u * e), pivots[6u * e]), column_of(g, 6u * e));
+            entry = less_multiple(entry, multiplier_of(COLUMN(with, 6u * e), pivots[6u * e]), COLUMN(g, 6u * e));
     return entry;
 }
 void eliminate_coupling(uint g) {
     uint inner = first_coupling();
-    for (uint e = inner; e < g; ++e)
-        if (is_unknown[e] != 0u) put_column(g, 6u * e, eliminated_by_couplings(g, e));
-    pivots[6u * g] = reciprocal(eliminated_by_couplings(g, g));
+    for (uint e = inner; e <= g; ++e) {
+        if (is_unknown[e] == 0u) continue;
+        float entry = eliminated_by_couplings(g, e);
+        if (e == g)
+            pivots[6u * g] = reciprocal(entry);
+        else
+            COLUMN(g, 6u * e) = entry;
+    }
     float sum = solutions[6u * g];
-    for (uint w = 0u; w < 2u; ++w) {
-        uint left = touched[2u * g + w];
-        while (left != 0u) {
-            uint j = 32u * w + uint(findLSB(left));
-            left &= left - 1u;
-            for (uint k = 0u; k < 6u; ++k) {
-                if (!has(unknowns[j], k)) continue;
-                float own = column_of(g, 6u * j + k);
-                if (own != 0.0f) sum = less_multiple(sum, multiplier_of(own, pivots[6u * j + k]), solutions[6u * j + k]);
-            }
-        }
+    FOR_TOUCHED(j, k, g, g) {
+        float own = COLUMN(g, 6u * j + k);
+        if (own != 0.0f) sum = less_multiple(sum, multiplier_of(own, pivots[6u * j + k]), solutions[6u * j + k]);
     }
     for (uint e = inner; e < g; ++e)
-        if (is_unknown[e] != 0u) sum = less_multiple(sum, multiplier_of(column_of(g, 6u * e), pivots[6u * e]), solutions[6u * e]);
+        if (is_unknown[e] != 0u) sum = less_multiple(sum, multiplier_of(COLUMN(g, 6u * e), pivots[6u * e]), solutions[6u * e]);
     solutions[6u * g] = sum;
 }
 // Substitution, and what is left to a row of the joints.
@@ -223,14 +204,14 @@ void substitute_couplings() {
         if (is_unknown[g] == 0u) continue;
         float sum = solutions[6u * g];
         for (uint later = g + 1u; later < block_joints; ++later)
-            if (is_unknown[later] != 0u) sum = less_multiple(sum, column_of(later, 6u * g), solutions[6u * later]);
+            if (is_unknown[later] != 0u) sum = less_multiple(sum, COLUMN(later, 6u * g), solutions[6u * later]);
         solutions[6u * g] = substituted(sum, pivots[6u * g]);
     }
 }
 void lessen_row(uint j, uint at) {
     for (uint g = first_coupling(); g < block_joints; ++g) {
         if (is_unknown[g] == 0u || !has(touched[2u * g + (j >> 5)], j & 31u)) continue;
-        float entry = column_of(g, at);
+        float entry = COLUMN(g, at);
         if (entry != 0.0f) solutions[at] = less_multiple(solutions[at], entry, solutions[6u * g]);
     }
 }
@@ -240,7 +221,7 @@ void solve_border() {
     uint inner = first_coupling(), rows = 6u * inner, all = block_joints - inner;
     for (uint g = inner; g < block_joints; ++g) FOR_LANES(at, rows) {
             uint j = sixth_of(at), k = at - 6u * j;
-            if (is_unknown[g] != 0u && has(unknowns[j], k)) put_column(g, at, coupled_entry(j, k, g));
+            if (is_unknown[g] != 0u && has(unknowns[j], k)) COLUMN(g, at) = coupled_entry(j, k, g);
         }
     end_part();
     FOR_LANES(i, all) if (is_unknown[inner + i] != 0u) eliminate_column(inner + i);
@@ -250,7 +231,7 @@ void solve_border() {
             if (is_unknown[g] == 0u || is_unknown[e] == 0u) continue;
             float entry = entry_between(e, g);
             if (e == g) entry = softened(entry, given_impulses[6u * g]);
-            put_column(g, 6u * e, eliminated_by_joints(g, entry, e));
+            COLUMN(g, 6u * e) = eliminated_by_joints(g, entry, e);
         }
     end_part();
     if (leads()) {

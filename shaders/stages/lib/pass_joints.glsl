@@ -15,7 +15,7 @@
 
 #extension GL_KHR_shader_subgroup_basic : require
 
-#ifndef SCREE_SMALL_BLOCKS
+#if !defined(SCREE_SMALL_BLOCKS) && !defined(SCREE_SINGLY)
 #define SCREE_FUSED  // threads read from memory what others wrote before a barrier
 #endif
 #include "shaders/physics/base/passes.h"
@@ -33,7 +33,7 @@ layout(constant_id = 2) const bool ONE_SUBGROUP = false;
 const uint JOINT_ROOM = SMALL_BLOCK_JOINTS, BODY_ROOM = 2u * SMALL_BLOCK_JOINTS, MASK_WORDS = 1u;
 const uint TILE_ROOM = 63u;  // of 11 joints: one of its own and MAX_FILL_IN, as far as joints follow
 #elif defined(SCREE_COUPLED)
-const uint JOINT_ROOM = MAX_COUPLED_BLOCK, BODY_ROOM = 2u * MAX_COUPLED_BLOCK, MASK_WORDS = MAX_COUPLED_BLOCK >> 5;
+const uint JOINT_ROOM = MAX_COUPLED_BLOCK, BODY_ROOM = 2u * MAX_COUPLED_BLOCK, MASK_WORDS = 2u;
 #else
 const uint JOINT_ROOM = MAX_BLOCK_JOINTS, BODY_ROOM = 2u * MAX_BLOCK_JOINTS, MASK_WORDS = MAX_BLOCK_JOINTS >> 5;
 #endif

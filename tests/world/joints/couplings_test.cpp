@@ -413,7 +413,7 @@ TEST_CASE("what cannot be coupled is refused by name") {
     Scene train = weightless();
     for (int i = 0; i < 40; ++i) add_wheel(train, static_cast<float>(i), 1);
     for (std::size_t i = 0; i + 1 < 40; ++i) couple(train, {.joints = {{i, 1}, {i + 1, 1}}});
-    CHECK_THROWS_WITH(World(train), Catch::Contains("more than 64 joints or 32 couplings"));
+    CHECK_THROWS_WITH(World(train), Catch::Contains("more than 54 joints or 26 couplings"));
     train.joints.resize(60);
     World world(train, awake);
     world.step(2);
