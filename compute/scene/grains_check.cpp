@@ -18,7 +18,7 @@ constexpr std::size_t most_forms = 10000;
 void check_region(const Examination& at, const GrainRegion& region) {
     const auto* box = std::get_if<GrainBox>(&region);
     for (int i = 0; box && i < 3; ++i)
-        if (!(box->low[i] < box->high[i])) at.refuse("/region/box/high", "must be above low along each axis");
+        if (!(box->low[i] < box->high[i])) at.refuse("/region/box/upper", "must be above lower along each axis");
 }
 
 void check_curve(const Examination& at, const std::vector<SievePoint>& sieve) {

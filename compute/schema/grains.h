@@ -51,9 +51,9 @@ inline constexpr auto table<GrainShape> = table_of("grain_shape", "A shape of so
                                                          "Part of the mass, relative to that of the other shapes"));
 
 template <>
-inline constexpr auto table<GrainBox> =
-    table_of("grain_box", "A box along the axes", field("low", &GrainBox::low, within(1e6), "m", "Its lowest corner").required(),
-             field("high", &GrainBox::high, within(1e6), "m", "Its highest corner").required());
+inline constexpr auto table<GrainBox> = table_of(
+    "grain_box", "A box along the axes", field("lower", &GrainBox::low, within(1e6), "m", "Its lowest corner").required(),
+    field("upper", &GrainBox::high, within(1e6), "m", "Its highest corner").required());
 template <>
 inline constexpr auto table<GrainCylinder> =
     table_of("grain_cylinder", "An upright cylinder",

@@ -8,9 +8,9 @@ from typing import Dict, List, Optional, Tuple, Union
 import book
 
 PACKAGE = "demos/python/scree/"
-MODULES = ("scene", "shapes", "joints", "world", "camera", "recording", "errors")
-TITLES = {"scene": "Scenes", "shapes": "Shapes", "joints": "Joints", "world": "Worlds", "camera": "Cameras and pictures",
-          "recording": "Recordings", "errors": "Errors"}
+MODULES = ("scene", "shapes", "joints", "world", "measures", "camera", "recording", "errors")
+TITLES = {"scene": "Scenes", "shapes": "Shapes", "joints": "Joints", "world": "Worlds", "measures": "Measures",
+          "camera": "Cameras and pictures", "recording": "Recordings", "errors": "Errors"}
 Function = Union[ast.FunctionDef, ast.AsyncFunctionDef]
 
 

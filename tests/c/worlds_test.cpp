@@ -56,7 +56,7 @@ TEST_CASE("c: a world has the bits of the C++ library's, also from the text that
 
 TEST_CASE("c: grains are added to a scene, and poured in by a world's steps") {
     const Scene scene = balls(1);
-    const std::string region = R"("region": {"box": {"low": [3, 0, -1], "high": [5, 1, 1]}}})";
+    const std::string region = R"("region": {"box": {"lower": [3, 0, -1], "upper": [5, 1, 1]}}})";
     std::size_t first = 0;
     ok(scree_scene_add(scene, "grains", (R"({"size": 0.1, "count": 30, )" + region).c_str(), &first));
     CHECK(first == 2);

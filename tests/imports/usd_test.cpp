@@ -251,6 +251,27 @@ TEST_CASE("imports: meshes of USD that stand still stay meshes, and approximatio
     CHECK(file.noted("/m: approximation: \"meshSimplification\""));
 }
 
+TEST_CASE("imports: a concave mesh of USD that moves becomes convex parts") {
+    Case file;
+    // An L, 1 m thick.
+    const auto mesh = [](const std::string& how) {
+        return "uniform token physics:approximation = \"" + how +
+               "\"\nint[] faceVertexCounts = [6, 6, 4, 4, 4, 4, 4, 4]\nint[] faceVertexIndices = [6, 7, 8, 9, 10, 11, 0, 5, 4, "
+               "3, 2, 1, "
+               "0, 1, 7, 6, 1, 2, 8, 7, 2, 3, 9, 8, 3, 4, 10, 9, 4, 5, 11, 10, 5, 0, 6, 11]\n"
+               "point3f[] points = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0), "
+               "(0, 0, 1), (2, 0, 1), (2, 1, 1), (1, 1, 1), (1, 2, 1), (0, 2, 1)]\n";
+    };
+    const Body body = file.load("a.usda", usda(rigid("Mesh", "m", mesh("convexDecomposition")))).scene.bodies[0];
+    REQUIRE(std::holds_alternative<Compound>(body.shape));
+    CHECK(std::get<Compound>(body.shape).parts.size() == 2);
+    CHECK(std::get<Compound>(body.shape).skins.size() == 1);
+    REQUIRE(body.inertial);
+    CHECK(body.inertial->mass == Approx(3 * body.density));
+    CHECK(file.noted("/m: approximation: is 2 convex parts"));
+    CHECK(std::holds_alternative<Hull>(file.load("a.usda", usda(rigid("Mesh", "m", mesh("convexHull")))).scene.bodies[0].shape));
+}
+
 TEST_CASE("imports: a point instancer of USD makes its prototypes' bodies") {
     Case file;
     const Scene scene = file.load("a.usda", usda("def PointInstancer \"rocks\" {\nint[] protoIndices = [0, 1, 0]\npoint3f[] "

@@ -82,7 +82,7 @@ class Building(unittest.TestCase):
 
 
 class Grains(unittest.TestCase):
-    region = {"box": {"low": (-.5, 0, -.5), "high": (.5, 1, .5)}}
+    region = {"box": {"lower": (-.5, 0, -.5), "upper": (.5, 1, .5)}}
 
     def test_they_follow_a_curve_and_have_ids(self):
         scene = scree.Scene()
@@ -99,7 +99,7 @@ class Grains(unittest.TestCase):
     def test_they_are_poured_during_a_run(self):
         scene = scree.Scene()
         scene.add(scree.Plane())
-        rain = {"name": "rain", "size": .05, "count": 40, "region": {"box": {"low": (-.5, 2, -.5), "high": (.5, 2.5, .5)}}}
+        rain = {"name": "rain", "size": .05, "count": 40, "region": {"box": {"lower": (-.5, 2, -.5), "upper": (.5, 2.5, .5)}}}
         self.assertEqual(len(scene.add_grains(**rain, count_rate=100, start=.1)), 0)
         world = scree.World(scene, backend="cpu")
         world.run(seconds=1)

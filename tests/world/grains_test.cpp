@@ -258,7 +258,7 @@ TEST_CASE("grains that cannot be are refused with their place", "[grains]") {
     CHECK_THAT(with([](Grains& g) {
                    g.region = GrainBox{{0, 0, 0}, {1, 0, 1}};
                }),
-               Catch::StartsWith("/grains/3/region/box/high"));
+               Catch::StartsWith("/grains/3/region/box/upper"));
     CHECK_THAT(with([](Grains& g) {
                    g.region = GrainBox{{0, 0, 0}, {1, 1, 0.05f}};
                }),

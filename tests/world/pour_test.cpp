@@ -148,7 +148,7 @@ TEST_CASE("scene file: grains become bodies and events, which are written and re
                     "shapes": [{"form": {"polyhedron": {"elongation": 0.6}}, "share": 3}, {"form": {"ellipsoid": {}}}],
                     "friction": 0.3, "rolling": 0.1, "color": "#ff0000", "region": {"cylinder": {"radius": 0.2, "height": 1}}},
                    {"size": 0.05, "count": 10, "count_rate": 20, "start": 2,
-                    "region": {"box": {"low": [0, 2, 0], "high": [1, 3, 1]}}}]})";
+                    "region": {"box": {"lower": [0, 2, 0], "upper": [1, 3, 1]}}}]})";
     const SceneDocument document = scene_from_json(text);
     REQUIRE(document.scene.bodies.size() == 201);
     CHECK(document.grains.empty());
@@ -174,7 +174,7 @@ TEST_CASE("scene file: grains of a mesh file have its hull, and few grains are t
     const auto scene = [&](const std::string& file, const std::string& more = "") {
         return folder.write("scene.json",
                             R"({"bodies": [], "grains": [{"size": 0.05, "count": 7, "shapes": [{"form": {"mesh": {"file": ")" +
-                                file + R"("}}}], "region": {"box": {"low": [0, 0, 0], "high": [1, 1, 1]}}})" + more + "]}");
+                                file + R"("}}}], "region": {"box": {"lower": [0, 0, 0], "upper": [1, 1, 1]}}})" + more + "]}");
     };
     const SceneDocument document = load_scene(scene("wedge.obj"));
     REQUIRE(document.scene.bodies.size() == 7);
@@ -185,14 +185,14 @@ TEST_CASE("scene file: grains of a mesh file have its hull, and few grains are t
     std::vector<std::string> notes;
     load_scene(scene("wedge.obj",
                      R"(, {"sieve": [{"size": 0.01, "passing": 0}, {"size": 0.02, "passing": 50}, {"size": 0.08, "passing": 100}],
-        "count": 9, "region": {"box": {"low": [0, 0, 0], "high": [1, 1, 1]}}})"),
+        "count": 9, "region": {"box": {"lower": [0, 0, 0], "upper": [1, 1, 1]}}})"),
                {}, &notes);
     REQUIRE(notes.size() == 1);
     CHECK_THAT(notes[0], Catch::Contains("scene.json: /grains/1: 9 grains miss the sieve curve by "));
 }
 
 TEST_CASE("scene file: grains that cannot be are refused with their place", "[grains]") {
-    const std::string region = R"("region": {"box": {"low": [0, 0, 0], "high": [1, 1, 1]}})";
+    const std::string region = R"("region": {"box": {"lower": [0, 0, 0], "upper": [1, 1, 1]}})";
     const auto with = [&](const std::string& keys) { return refusal("{" + keys + ", " + region + "}"); };
     CHECK_THAT(with(R"("size": 0.1, "count": 3, "sizes": 3)"), Catch::StartsWith("/grains/0/sizes: unknown key"));
     CHECK_THAT(with(R"("size": 0.1, "count": -3)"), Catch::StartsWith("/grains/0/count: must be"));

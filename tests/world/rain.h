@@ -16,7 +16,7 @@ inline std::string rain(const std::string& keys, float half = 0.6f) {
            wall("0", out, true) + wall("0", "-" + out, true) +
            R"(], "grains": [{"name": "rain", "sieve": [{"size": 0.05, "passing": 0}, {"size": 0.09, "passing": 100}],
                 "shapes": [{"form": {"polyhedron": {"variants": 3}}}, {"form": {"sphere": {}}}], "velocity": [0, -2, 0], )" +
-           keys + R"(, "region": {"box": {"low": [-)" + h + ", 0.9, -" + h + R"(], "high": [)" + h + ", 1.3, " + h + "]}}}]}";
+           keys + R"(, "region": {"box": {"lower": [-)" + h + ", 0.9, -" + h + R"(], "upper": [)" + h + ", 1.3, " + h + "]}}}]}";
 }
 
 }  // namespace scree::tests

@@ -196,7 +196,7 @@ class Scene(Bodies[_native.Description]):
         """Adds grains whose sizes follow a sieve curve, with the keys of "grains" in a scene file.
 
         sieve: (n, 2), size (m) and % of the mass that passes, ascending from 0 to 100; or size=, m, for one size.
-        region: {"box": {"low": (3,), "high": (3,)}} or {"cylinder": {"base": (3,), "radius": m, "height": m}}.
+        region: {"box": {"lower": (3,), "upper": (3,)}} or {"cylinder": {"base": (3,), "radius": m, "height": m}}.
         mass (kg), count or fill (part of the region's volume): how many. shapes, density, friction, seed, name and so on.
         mass_rate (kg/s) or count_rate (1/s): they are poured into the region during the run, from start (s) on, with a velocity.
 

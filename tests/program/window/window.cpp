@@ -89,7 +89,7 @@ void change_the_size(const Viewer& viewer) {
 // Clicks on the panel do not reach the scene behind it, not even between two pictures.
 void use_the_panel(const Viewer& viewer) {
     const json before = viewer.report();
-    viewer.hand("mousemove --window " + viewer.window() + " 38 211 mousedown 1");  // "Pause"
+    viewer.hand("mousemove --window " + viewer.window() + " 38 236 mousedown 1");  // "Pause"
     wait_for(0.3);
     viewer.hand("mouseup 1");
     REQUIRE(viewer.until([](const json& now) { return now.at("paused") == true; }));

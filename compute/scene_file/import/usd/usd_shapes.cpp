@@ -172,18 +172,19 @@ void Shapes::add_bounds(const UsdCollider& collider, Geometry like, bool round, 
     }
 }
 
-// Convex parts of a mesh, as `how` wants them: one hull.
+// The convex hull of a mesh, or its convex parts where that is not what `how` asks for.
 void Shapes::add_pieces(const UsdCollider& collider, const Geometry& like, const std::string& how, SolidMass& mass) {
     const Origin at = stage_.at(*collider.prim);
-    const MeshSolid solid = mesh_solid(vertices_, triangles_, {0});
+    const bool hull = how == "convexHull", parts = how == "convexDecomposition";
+    const MeshSolid solid = mesh_solid(vertices_, triangles_, {0}, !hull);
     if (!solid.flaw.empty()) refuse(at, "its mesh has no convex hull: " + solid.flaw);
-    if (how != "convexHull")
-        notes_.add(at, "approximation", "\"" + how.substr(0, 60) + "\" of a mesh that moves becomes its convex hull");
-    mass = how == "convexHull" ? hull_mass(solid.hulls[0]) : solid.mass;
-    mass = placed_mass(mass, like.placed);
-    for (const auto& corners : solid.hulls) {
+    if (!solid.remark.empty()) notes_.add(at, "approximation", solid.remark);
+    if (!hull && !parts) notes_.add(at, "approximation", "\"" + how.substr(0, 60) + "\" of a mesh that moves becomes convex");
+    mass = placed_mass(hull ? hull_mass(solid.hulls[0]) : solid.mass, like.placed);
+    for (std::size_t k = 0; k < solid.hulls.size(); ++k) {
         Geometry one = like;
-        one.shape = Hull{corners};
+        one.shape = Hull{solid.hulls[k]};
+        one.parts = solid.parts[k];
         keep(collider, std::move(one));
     }
 }
