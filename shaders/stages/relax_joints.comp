@@ -31,8 +31,11 @@ void take_stock(uint j) {
         if (axis.mode == 0u) continue;
         JointRow row = row_of(j, k);
         row.direction = row_vector(j, k, DIRECTION);
+#ifdef SCREE_COUPLED
+        if (is_coupling(j)) row.direction = vec3(1.0f, 0.0f, 0.0f);
+#endif
         vec3 pushed = row_push(row, rotor_of(j, k, axis));
-        if (is_linear(k))
+        if (is_linear(kind_of_row(j, k)))
             push_sum = push_sum + pushed;
         else
             turn_sum = turn_sum + pushed;
@@ -122,7 +125,7 @@ void end_pass() {
     }
     end_part();
 #ifdef SCREE_COUPLED
-    if (leads()) commit_couplings(warms, true);
+    if (leads()) pass_on_impulses();
     end_part();
 #endif
     push_bodies(FROM_REST);

@@ -20,7 +20,7 @@ void end_pass() {
     }
     end_part();
 #ifdef SCREE_COUPLED
-    if (leads()) commit_couplings(false, false);
+    if (leads()) pass_on_impulses();
     end_part();
 #endif
     push_bodies(FROM_REST);

@@ -3,16 +3,8 @@
 #ifndef SCREE_STAGES_PASS_COUPLINGS_GLSL
 #define SCREE_STAGES_PASS_COUPLINGS_GLSL
 
-// A coupling g is a joint of the block, from `first_coupling()` up to block_joints.
-BLOCK_SHARED uint is_unknown[MAX_COUPLED_BLOCK];    // of the equations of this round, by joint of the block
 BLOCK_SHARED uint touched[2u * MAX_COUPLED_BLOCK];  // of each coupling: the joints in whose rows its column is not 0, a bit each
 
-uint first_coupling() {
-    return block_joints - joint_blocks.at[block].couplings;
-}
-bool coupling_acts(uint g) {
-    return is_whole(block_first_joint + g) && row_acts(coupling_axis(block_first_joint + g), JOINT(g).rows[0]);
-}
 uint joint_in_block(uint term) {
     return joint_of_term(term) - block_first_joint;
 }
@@ -60,44 +52,13 @@ float speed_of_coupling(uint g, bool before) {
     return sum;
 }
 
-// Chooses the couplings that are unknowns; the impulses of the others are given. Of one thread, after choose_unknowns().
-void choose_coupled_unknowns() {
+// Of one thread: passes on to the joints' rows what the couplings give.
+void pass_on_impulses() {
     for (uint g = first_coupling(); g < block_joints; ++g) {
-        is_unknown[g] = 0u;
-        if (!coupling_acts(g)) continue;
-        JointAxis axis = coupling_axis(block_first_joint + g);
-        uint active_flags = active_set_of(JOINT(g).active_set, 0u);
-        JointRow row = row_of(g, 0u);
-        if (row_is_unknown(axis, row, active_flags, BIASED, PARAMETERS)) is_unknown[g] = 1u;
-        row = row_given(axis, row, active_flags, speed_of_coupling(g, true), BIASED, PARAMETERS);
-        put_changes(g, 0u, row);
-        add_to_terms(g, given_push(axis, row));
+        if (pushing[g] == 0u) continue;
+        pushing[g] = 0u;
+        add_to_terms(g, given_impulses[6u * g]);
     }
-}
-// The right-hand side and the compliance.
-void set_up_coupling(uint g) {
-    if (is_unknown[g] == 0u) return;
-    uint coupling = block_first_joint + g;
-    RowTarget demand =
-        row_demand(coupling_axis(coupling), row_with_changes(g, 0u), no_rotor(), axis_of_term(term_of(coupling, 0u)),
-                   active_set_of(JOINT(g).active_set, 0u), BIASED, PARAMETERS);
-    solutions[6u * g] = right_hand_side(speed_of_coupling(g, false), demand.bias);
-    given_impulses[6u * g] = demand.compliance;
-}
-// Updates the active set after a solution; true if it changed.
-bool look_at_coupling(uint g, bool settling) {
-    if (!coupling_acts(g)) return false;
-    uint coupling = block_first_joint + g, before = JOINT(g).active_set;
-    bool solved = is_unknown[g] != 0u;
-    float solution = 0.0f;
-    if (solved) solution = solutions[6u * g];
-    RowAfter after =
-        row_after_round(coupling_axis(coupling), row_with_changes(g, 0u), no_rotor(), axis_of_term(term_of(coupling, 0u)),
-                        active_set_of(before, 0u), solved, solution, speed_of_coupling(g, false), BIASED, settling, PARAMETERS);
-    put_changes(g, 0u, after.row);
-    uint active_set = with_active_set(before, 0u, after.active_flags);
-    JOINT(g).active_set = active_set;
-    return active_set != before;
 }
 
 // ---- equations
@@ -250,25 +211,6 @@ void solve_border() {
 void add_coupled_solutions() {
     for (uint g = first_coupling(); g < block_joints; ++g)
         if (is_unknown[g] != 0u) add_to_terms(g, solutions[6u * g]);
-}
-
-// ---- a pass ends
-// Of one thread, after commit() of the joints: adds the impulses to theirs, and commits them.
-void commit_couplings(bool warms, bool with_load) {
-    for (uint g = first_coupling(); g < block_joints; ++g) {
-        if (!is_whole(block_first_joint + g)) continue;
-        JointRow row = row_with_changes(g, 0u);
-        if (row_acts(coupling_axis(block_first_joint + g), row)) add_to_terms(g, handed_impulse(row, no_rotor(), warms));
-        row = committed(row);
-        JOINT(g).rows[0].motor_impulse = row.motor_impulse;
-        JOINT(g).rows[0].limit_impulse = row.limit_impulse;
-        if (!with_load) continue;
-        float load = row_impulse(row, no_rotor());
-        if (is_linear(axis_of_term(term_of(block_first_joint + g, 0u))))
-            JOINT(g).force.x = JOINT(g).force.x + load;
-        else
-            JOINT(g).torque.x = JOINT(g).torque.x + load;
-    }
 }
 
 #endif

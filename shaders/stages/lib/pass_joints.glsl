@@ -107,6 +107,16 @@ uint side_b(uint j) {
     return side == NOBODY ? NONE : side;
 }
 
+#ifdef SCREE_COUPLED
+// A coupling is one of the last joints of the block.
+uint first_coupling() {
+    return block_joints - joint_blocks.at[block].couplings;
+}
+bool is_coupling(uint j) {
+    return j >= first_coupling();
+}
+#endif
+
 // ---- what small blocks keep with their threads, and others in memory
 #ifdef SCREE_SMALL_BLOCKS
 BLOCK_SHARED uint first_tiles[JOINT_ROOM];
@@ -188,9 +198,33 @@ void put_row_vector(uint j, uint k, uint which, vec3 v) {
 #define JOINT(j) joints.at[block_first_joint + (j)]
 #define MEMBER(m) block_bodies.at[block_first_body + (m)]
 
+#ifdef SCREE_COUPLED
+// Couplings are joints with one row, the first: the laws treat it like those of joints.
+BLOCK_SHARED uint is_unknown[MAX_COUPLED_BLOCK];  // coupling's row in the equations of this round, by joint of the block
+const uint ACTS = 0x40000000u;                    // in `facts`, of a coupling none of whose joints has broken
+
+// The axis by which the laws tell lengths from angles.
+uint kind_of_row(uint j, uint k) {
+    return is_coupling(j) ? axis_of_term(term_of(block_first_joint + j, 0u)) : k;
+}
+uint solved_axes_of(uint j) {
+    return is_coupling(j) ? is_unknown[j] : unknowns[j];
+}
+#else
+#define kind_of_row(j, k) k
+#define solved_axes_of(j) unknowns[j]
+#endif
+
 // Of a lock the laws look at the coordinate of rest alone.
 JointAxis axis_of(uint j, uint k) {
     JointAxis axis;
+#ifdef SCREE_COUPLED
+    if (is_coupling(j)) {
+        axis = axis_of_coupling(JOINT(j).axes[0], JOINT(j).flags);
+        if (k != 0u || (facts[j] & ACTS) == 0u) axis.mode = 0u;
+        return axis;
+    }
+#endif
     axis.mode = JOINT(j).axes[k].mode;
     axis.lower = axis.upper = axis.stiffness = axis.damping = axis.rest = axis.speed = axis.most = 0.0f;
     if (is_locked(axis))
@@ -235,6 +269,16 @@ float speed_of(uint j, uint k, VelocityPair v) {
     row.angular_b = row_vector(j, k, ANGULAR_B);
     return row_speed(row, is_linear(k), v);
 }
+#ifdef SCREE_COUPLED
+float speed_of_coupling(uint g, bool before);
+// `before`: as the pass begins, in place of now; `v`: likewise.
+float speed_in(uint j, uint k, VelocityPair v, bool before) {
+    if (is_coupling(j)) return speed_of_coupling(j, before);
+    return speed_of(j, k, v);
+}
+#else
+#define speed_in(j, k, v, before) speed_of(j, k, v)
+#endif
 Velocity velocity_of_side(uint body, uint side) {
     if (side != NONE) return velocity_now(side);
     return velocity_at_first(body);
@@ -266,6 +310,10 @@ void describe_block() {
         if (a != NOBODY) JOIN(hanging[MASK_WORDS * a + (j >> 5)], 1u << (j & 31u));
         if (b != NOBODY) JOIN(hanging[MASK_WORDS * b + (j >> 5)], 1u << (j & 31u));
         unknowns[j] = 0u;
+#ifdef SCREE_COUPLED
+        is_unknown[j] = 0u;
+        if (is_coupling(j) && is_whole(block_first_joint + j)) facts[j] |= ACTS;
+#endif
     }
 #ifdef SCREE_SMALL_BLOCKS
     end_part();
@@ -376,7 +424,7 @@ void choose_unknowns(uint j) {
             VelocityPair v;
             v.a = velocity_at_first(JOINT(j).a);
             v.b = velocity_at_first(JOINT(j).b);
-            speed = speed_of(j, k, v);
+            speed = speed_in(j, k, v, true);
         }
         row = row_given(axis, row, active_flags, speed, BIASED, PARAMETERS);
         put_changes(j, k, row);
@@ -384,6 +432,12 @@ void choose_unknowns(uint j) {
         given_impulses[6u * j + k] = change;
         if (change != 0.0f) given |= 1u << k;
     }
+#ifdef SCREE_COUPLED
+    if (is_coupling(j)) {
+        is_unknown[j] = found;
+        found = 0u;
+    }
+#endif
     unknowns[j] = found;
     pushing[j] = given;
 }
@@ -393,11 +447,11 @@ void set_up_sides(uint j) {
     VelocityPair v = couple_of(j);
     uint active_set = JOINT(j).active_set;
     for (uint k = 0u; k < 6u; ++k) {
-        if (!has(unknowns[j], k)) continue;
+        if (!has(solved_axes_of(j), k)) continue;
         JointAxis axis = axis_of(j, k);
-        RowTarget demand =
-            row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), k, active_set_of(active_set, k), BIASED, PARAMETERS);
-        solutions[6u * j + k] = right_hand_side(speed_of(j, k, v), demand.bias);
+        RowTarget demand = row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), kind_of_row(j, k),
+                                      active_set_of(active_set, k), BIASED, PARAMETERS);
+        solutions[6u * j + k] = right_hand_side(speed_in(j, k, v, false), demand.bias);
         given_impulses[6u * j + k] = demand.compliance;
     }
 }
@@ -542,9 +596,6 @@ void substitute(uint j) {
 
 void solve_equations() {
     FOR_LANES(j, block_joints) set_up_sides(j);
-#ifdef SCREE_COUPLED
-    FOR_LANES(i, block_joints - first_coupling()) set_up_coupling(first_coupling() + i);
-#endif
     end_part();
     FOR_LANES(t, 6u * block_joints) {
         uint j = sixth_of(t), k = t - 6u * j;
@@ -571,11 +622,11 @@ bool look_at_bounds(uint j, bool settling) {
         JointAxis axis = axis_of(j, k);
         JointRow row = row_with_changes(j, k);
         if (!row_acts(axis, row)) continue;
-        bool solved = has(unknowns[j], k);
+        bool solved = has(solved_axes_of(j), k);
         float solution = 0.0f;
         if (solved) solution = solutions[6u * j + k];
-        RowAfter after = row_after_round(axis, row, rotor_of(j, k, axis), k, active_set_of(before, k), solved, solution,
-                                         speed_of(j, k, v), BIASED, settling, PARAMETERS);
+        RowAfter after = row_after_round(axis, row, rotor_of(j, k, axis), kind_of_row(j, k), active_set_of(before, k), solved,
+                                         solution, speed_in(j, k, v, false), BIASED, settling, PARAMETERS);
         if (has_rotor(axis)) JOINT(j).rotors[k].change = after.rotor_change;
         put_changes(j, k, after.row);
         active_set = with_active_set(active_set, k, after.active_flags);
@@ -612,7 +663,7 @@ void solve_block() {
         FOR_LANES(j, block_joints) {
             JOINT(j).solved_axes = 0u;
 #ifdef SCREE_COUPLED
-            if (j >= first_coupling()) continue;
+            if (is_coupling(j)) continue;
 #endif
             if (holds(j)) place_rows(j);
         }
@@ -635,7 +686,7 @@ void solve_block() {
         }
         end_part();
 #ifdef SCREE_COUPLED
-        if (leads()) choose_coupled_unknowns();
+        if (leads()) pass_on_impulses();
         end_part();
 #endif
         push_bodies(FROM_BEFORE);
@@ -647,16 +698,9 @@ void solve_block() {
         end_part();
         FOR_LANES(j, block_joints) {
             if (!holds(j)) continue;
-#ifdef SCREE_COUPLED
-            if (j >= first_coupling()) continue;
-#endif
             JOINT(j).solved_axes = unknowns[j];
             if (look_at_bounds(j, round >= SETTLING_ROUND)) JOIN(unsettled, 1u);
         }
-#ifdef SCREE_COUPLED
-        FOR_LANES(i, block_joints - first_coupling())
-        if (look_at_coupling(first_coupling() + i, round >= SETTLING_ROUND)) JOIN(unsettled, 1u);
-#endif
         end_part();
     }
     if (leads()) joint_blocks.at[block].unsettled = unsettled;
