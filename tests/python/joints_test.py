@@ -212,7 +212,7 @@ class Couplings(unittest.TestCase):
             kind = scree.Slider() if name == "slide" else scree.Hinge()
             scene.add_joint(kind, None, i, anchor=(i, 0, 0), axis=(0, 0, 1), name=name)
         scene.add_joint(scree.Coupling({"small": 20, "large": 50}), name="gear")
-        scene.add_joint(scree.Coupling([("slide", 1), ("large", 0, "twist")], curve=(0.1, 0.02), offset=0), name="cam")
+        scene.add_joint(scree.Coupling([("slide", 1), ("large", 0, "twist")], curve=(-0.1, -0.02), offset=0), name="cam")
         scene.add_joint(scree.Coupling({"small": 1}, limits=(-1, 2), offset=0), name="stop")
         world = scree.World(scene, backend="cpu", copies=2)
         self.assertEqual(scree.from_json(scene.to_json()).hash, scene.hash)
