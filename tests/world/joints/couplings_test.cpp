@@ -1,6 +1,7 @@
 // Couplings: ratios under load, closed forms of gears, racks, pulleys, followers and tendons, what they keep of energy and
 // momentum, and the same bits however they are computed, kept and shared.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -209,6 +210,52 @@ TEST_CASE("a tendon stops at its limit, pulls as its spring, and drives as its m
     CHECK(rate(rubbed, b) == Approx(7.0 / 5 + 8 - 6).epsilon(1e-3));
 }
 
+TEST_CASE("couplings in a loop hold as one does: belts turn together, three gears that mesh stand still, one said twice is one") {
+    const auto wheels = [](float factor) {
+        Scene scene = weightless();
+        for (int i = 0; i < 3; ++i) add_wheel(scene, static_cast<float>(i), 0.25f, i == 0 ? Axis{.motor = Motor{5, 50}} : Axis{});
+        for (std::size_t i = 0; i < 3; ++i) couple(scene, {.joints = {{i, 1}, {(i + 1) % 3, factor}}});
+        return scene;
+    };
+    World belts(wheels(-1), awake);
+    belts.step(300);
+    CHECK(rate(belts, 0) == Approx(5).epsilon(1e-4));
+    CHECK(angle(belts, 0) > 20);
+    for (const std::size_t other : {1, 2}) CHECK(angle(belts, other) == Approx(angle(belts, 0)).epsilon(1e-6));
+    World gears(wheels(1), awake);
+    gears.step(300);
+    for (const std::size_t each : {0, 1, 2}) {
+        CHECK(std::abs(angle(gears, each)) < 1e-5);
+        CHECK(std::abs(rate(gears, each)) < 1e-5);
+    }
+    Scene twice = weightless();
+    const std::size_t a = add_wheel(twice, 0, 0.25f, {.motor = Motor{5, 50}}), b = add_wheel(twice, 1, 0.25f);
+    for (const float scale : {1.0f, 1.0f, 2.0f}) couple(twice, {.joints = {{a, 2 * scale}, {b, scale}}});
+    World world(twice, awake);
+    world.step(300);
+    CHECK(rate(world, a) == Approx(5).epsilon(1e-4));
+    CHECK(angle(world, b) == Approx(-2 * angle(world, a)).epsilon(1e-6));
+}
+
+TEST_CASE("a ratio of a million holds, and what turns fast is felt by its square") {
+    for (const bool slow : {true, false}) {
+        CAPTURE(slow);  // whether the motor is on the slow wheel
+        Scene scene = weightless();
+        const std::size_t a = add_wheel(scene, 0, 1, slow ? Axis{} : Axis{.motor = Motor{100, 50}}), b = add_wheel(scene, 1, 1);
+        couple(scene, {.joints = {{a, 1e-6f}, {b, 1}}});
+        World world(scene, awake);
+        if (slow) {
+            turn_by(world, b, 40, 60);  // against an inertia of 1e12
+            CHECK(std::abs(angle(world, b)) < 1e-5);
+            CHECK(world.statistics().not_finite == 0);
+            continue;
+        }
+        world.step(300);
+        CHECK(rate(world, a) == Approx(100).epsilon(1e-4));
+        CHECK(angle(world, b) == Approx(-1e-6 * angle(world, a)).margin(1e-7));
+    }
+}
+
 TEST_CASE("a follower is where its curve says, and goes as fast as the slope says") {
     Scene scene = weightless();
     const std::size_t x = add_slide(scene, 0, 1), y = add_slide(scene, 1, 1);
@@ -369,6 +416,39 @@ TEST_CASE("couplings go on with checkpoints, steps taken back, resets, files, an
     later.remove_joints({&first, 1});
     later.step(5);
     CHECK(rate(later, b) < 0);
+}
+
+TEST_CASE("loops of couplings turn as one where they agree, and lock where they contradict each other") {
+    const auto driven = [](const std::vector<Coupling>& couplings) {
+        Scene scene = weightless();
+        for (int i = 0; i < 3; ++i) add_wheel(scene, static_cast<float>(i), 0.3f, i == 0 ? Axis{.motor = Motor{5, 3}} : Axis{});
+        for (const Coupling& coupling : couplings) couple(scene, coupling);
+        World world(scene, awake);
+        world.step(60);
+        return std::array{angle(world, 0), angle(world, 1), angle(world, 2)};
+    };
+    // A belt over three wheels: any two couplings say the third.
+    const auto belt = driven({{.joints = {{0, 1}, {1, -1}}}, {.joints = {{1, 1}, {2, -1}}}, {.joints = {{2, 1}, {0, -1}}}});
+    CHECK(belt[0] == Approx(0.5 * 3 / 0.9).epsilon(5e-3));
+    CHECK(belt[1] == Approx(belt[0]).epsilon(1e-5));
+    CHECK(belt[2] == Approx(belt[0]).epsilon(1e-5));
+    // The same one twice: 3 N m on 0.3 + 0.3 / 4, up to 5 rad/s.
+    const auto twice = driven({{.joints = {{0, 1}, {1, 2}}}, {.joints = {{0, 1}, {1, 2}}}});
+    CHECK(twice[0] == Approx(5 - 25.0 / 16).epsilon(5e-3));
+    CHECK(twice[1] == Approx(-0.5 * twice[0]).epsilon(1e-5));
+    // Three gears that mesh with each other, and two ratios of the same two.
+    for (const auto& locked : {driven({{.joints = {{0, 1}, {1, 1}}}, {.joints = {{1, 1}, {2, 1}}}, {.joints = {{2, 1}, {0, 1}}}}),
+                               driven({{.joints = {{0, 1}, {1, 2}}}, {.joints = {{0, 1}, {1, 3}}}})})
+        for (std::size_t i = 0; i < 2; ++i) CHECK(std::abs(locked[i]) < 1e-4);
+    // The largest ratio, both ways.
+    for (const bool slow : {false, true}) {
+        const auto far = driven({{.joints = {{0, slow ? 1e6f : 1e-6f}, {1, 1}}}});
+        CAPTURE(far[0], far[1]);
+        if (slow)
+            CHECK(std::abs(far[0]) < 5e-5);
+        else
+            CHECK(far[1] == Approx(-1e-6 * far[0]).margin(1e-7));
+    }
 }
 
 TEST_CASE("coupled wheels fall asleep together, and wake together") {
