@@ -80,7 +80,6 @@ float coupled_entry(uint j, uint k, uint g) {
         to.inverse_mass_b = mass_b.inverse_mass;
         to.split_a = mass_a.split;
         to.split_b = mass_b.split;
-        to.pad0 = to.pad1 = 0.0f;
         float entry =
             row_entry(row_vector(j, k, DIRECTION), row_vector(j, k, ANGULAR_A), row_vector(j, k, ANGULAR_B), k, to, ends);
         sum = with_entry(sum, factor_of(coupling, t), entry);
