@@ -179,6 +179,8 @@ struct World::Impl {
     // Rebuilds the joint records from the scene; those of `fresh` joints are new, not those of joints that had their indices.
     void rejoin(std::optional<std::size_t> without = std::nullopt, std::span<const std::size_t> fresh = {});
     void check_new_joints(std::span<const std::size_t> joints);
+    std::vector<std::size_t> couplings_of(std::span<const std::size_t> joints) const;  // that are there
+    void require_uncoupled(std::span<const std::size_t> joints) const;  // but by each other; throws std::invalid_argument
     void take_away_joint(std::size_t joint);
     std::optional<std::size_t> place_of_joint(const JointHandle& joint);
     void count_joints();  // lengthens the lists by index

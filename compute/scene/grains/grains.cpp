@@ -280,10 +280,27 @@ std::vector<double> GrainSupply::passing() const {
 }
 
 double GrainSupply::error() const {
-    const std::vector<double> found = passing();
-    double most = 0;
-    for (std::size_t i = 0; i < found.size(); ++i)
-        most = std::max(most, std::abs(found[i] - static_cast<double>(impl_->asked.sieve[i].passing)));
+    const std::vector<SievePoint>& curve = impl_->asked.sieve;
+    std::vector<double> sizes, asked;  // also between the points of the curve, where hulls have sizes on both sides
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+        const double low = static_cast<double>(curve[i - 1].size), high = static_cast<double>(curve[i].size);
+        const double before = static_cast<double>(curve[i - 1].passing), after = static_cast<double>(curve[i].passing);
+        for (int k = 1; k <= hull_sizes; ++k) {
+            const double part = static_cast<double>(k) / hull_sizes;
+            sizes.push_back(k == hull_sizes ? high : low * portable::pow(high / low, part));
+            asked.push_back(before + part * (after - before));
+        }
+    }
+    std::vector<double> masses(sizes.size() + 1, 0);
+    for (std::size_t i = 0; i < count(); ++i) {
+        const auto at = std::lower_bound(sizes.begin(), sizes.end(), sieve_size(i)) - sizes.begin();
+        masses[static_cast<std::size_t>(at)] += impl_->before[i + 1] - impl_->before[i];
+    }
+    double most = 0, below = 0;
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        below += masses[k];
+        most = std::max(most, std::abs(100 * below / mass() - asked[k]));
+    }
     return most;
 }
 

@@ -147,6 +147,10 @@ void decompose_mesh(const Examination& body, Body& b, CheckedShapes& shapes, std
         Inertial& own = b.inertial.emplace();
         own.mass = static_cast<float>(made->volume * density);
         own.centre = vec3(made->centre);
+        if (2 * std::max({along[0][0], along[1][1], along[2][2]}) > 1.001 * (along[0][0] + along[1][1] + along[2][2]))
+            at.refuse(
+                "",
+                "its faces cross so that it encloses no body, some of its volume counting as negative; mend it, or use its hull");
         own.inertia = vec3(glm::dvec3(along[0][0], along[1][1], along[2][2]) * density);
         const glm::dquat turn = glm::normalize(glm::quat_cast(axes));
         own.frame = vec4(glm::dvec4(turn.x, turn.y, turn.z, turn.w));

@@ -52,7 +52,60 @@ private:
     }
 };
 
+// The axes of a kind by JointAxis that a coupling can take: null for others.
+bool can_be_coupled(const JointKind& kind, JointAxis axis) {
+    if (std::holds_alternative<Hinge>(kind) || std::holds_alternative<ConeTwist>(kind)) return axis == JointAxis::twist;
+    if (std::holds_alternative<Slider>(kind) || std::holds_alternative<Distance>(kind)) return axis == JointAxis::x;
+    const auto* const six = std::get_if<SixDof>(&kind);
+    if (!six) return false;
+    const Axis* const axes[] = {&six->x, &six->y, &six->z, &six->twist, &six->swing_y, &six->swing_z};
+    const Axis& one = *axes[static_cast<std::size_t>(axis)];
+    return !one.locked && !(one.limits && one.limits->lower == one.limits->upper);
+}
+
+void examine_coupling(const Examination& joint, Joint& j, Coupling& coupling, const Scene& scene) {
+    if (j.a != the_world || j.b != the_world)
+        joint.refuse(j.a != the_world ? "/a" : "/b", "a coupling joins joints, not bodies; leave a and b out");
+    schema::check_fields(joint, j, Rules());
+    const std::string place = "/kind/coupling";
+    if (j.anchor_a != vec3(0) || j.anchor_b != vec3(0))
+        joint.refuse("", "a coupling is at no place; leave out its anchors and its axis");
+    if (coupling.joints.size() > most_coupled_axes || (!coupling.curve.empty() && coupling.joints.size() > 4))
+        joint.refuse(place + "/joints", "must be at most " + std::string(coupling.curve.empty() ? "8" : "4, beside a curve,") +
+                                            " joints, not " + std::to_string(coupling.joints.size()));
+    if (coupling.curve.size() > 4)
+        joint.refuse(place + "/curve", "has at most 4 numbers, not " + std::to_string(coupling.curve.size()));
+    for (std::size_t k = 0; k < coupling.curve.size(); ++k)
+        if (!(std::abs(coupling.curve[k]) <= 1e6f))
+            joint.refuse(place + "/curve/" + std::to_string(k), "must be within 1000000 of 0, is " + text_of(coupling.curve[k]));
+    if (coupling.sum.armature != 0)
+        joint.refuse(place + "/armature", "a coupling turns no rotor; give the armature to one of its joints");
+    for (std::size_t t = 0; t < coupling.joints.size(); ++t) {
+        const CoupledAxis& term = coupling.joints[t];
+        const std::string at = place + "/joints/" + std::to_string(t);
+        if (term.joint >= scene.joints.size())
+            joint.refuse(at + "/joint", "there is no joint " + std::to_string(term.joint) + "; the scene has " +
+                                            std::to_string(scene.joints.size()));
+        const JointKind& kind = scene.joints[term.joint].kind;
+        if (std::holds_alternative<Coupling>(kind))
+            joint.refuse(at + "/joint",
+                         "joint " + std::to_string(term.joint) + " is a coupling; name the joints that it couples");
+        if (!can_be_coupled(kind, term.axis.value_or(main_axis(kind))))
+            joint.refuse(term.axis ? at + "/axis" : at + "/joint",
+                         "joint " + std::to_string(term.joint) +
+                             " does not move on that axis alone; a hinge and a cone turn about twist, a slider and a distance "
+                             "move along x, and six degrees on what is not locked");
+        for (std::size_t e = 0; e < t; ++e)
+            if (coupling.joints[e].joint == term.joint &&
+                coupling.joints[e].axis.value_or(main_axis(kind)) == term.axis.value_or(main_axis(kind)))
+                joint.refuse(at + "/joint", "is named twice; add the factors");
+        if (term.factor == 0 && (coupling.curve.empty() || t + 1 < coupling.joints.size()))
+            joint.refuse(at + "/factor", "must not be 0; leave the joint out");
+    }
+}
+
 void examine(const Examination& joint, Joint& j, const Scene& scene) {
+    if (auto* coupling = std::get_if<Coupling>(&j.kind)) return examine_coupling(joint, j, *coupling, scene);
     const auto moves = [&](std::size_t body) { return body != the_world && scene.bodies[body].motion == Motion::dynamic; };
     for (const auto& [key, body] : {std::pair{"/a", j.a}, std::pair{"/b", j.b}})
         if (body != the_world && body >= scene.bodies.size())

@@ -211,8 +211,13 @@ void World::Impl::check_edits(Edits& made, std::size_t bodies_at_start) {
         require(origin <= static_cast<std::uint8_t>(Origin::none), "a body has an origin that is not known");
     for (const std::uint64_t index : made.freed) require(index < bodies, "it frees a body behind the last one");
     const auto is_joined = [&](std::size_t body) { return body == the_world || body < bodies; };
-    for (const Joint& joint : made.joints)
-        require(is_joined(joint.a) && is_joined(joint.b) && joint.a != joint.b, "a joint is of a body that is none");
+    for (const Joint& joint : made.joints) {
+        const Coupling* const coupling = std::get_if<Coupling>(&joint.kind);
+        require(is_joined(joint.a) && is_joined(joint.b) && (coupling || joint.a != joint.b),
+                "a joint is of a body that is none");
+        for (std::size_t t = 0; coupling && t < coupling->joints.size(); ++t)
+            require(coupling->joints[t].joint < made.joints.size(), "a coupling is of a joint that is none");
+    }
     for (const Vehicle& vehicle : made.vehicles) {
         require(vehicle.chassis < bodies, "a vehicle has a chassis that is none");
         for (const Wheel& wheel : vehicle.wheels) require(wheel.joint < made.joints.size(), "a wheel is on a joint that is none");

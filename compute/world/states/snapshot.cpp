@@ -1,4 +1,5 @@
 // World: its present scene, of all bodies or of one copy.
+#include <algorithm>
 #include <utility>
 
 #include "compute/compile/joint_blocks.h"
@@ -44,16 +45,30 @@ Scene World::Impl::snapshot(std::optional<std::size_t> copy) const {
     };
     bring(joint_ranges);
     std::vector<Joint> joints;
+    const auto is_there = [&](std::size_t i) {
+        const Joint& joint = scene.joints[i];
+        return !is_joint_gone(i) && (joint.a == the_world || place_there[joint.a] != no_body) &&
+               (joint.b == the_world || place_there[joint.b] != no_body);
+    };
     std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
+    for (std::size_t i = 0, next = 0; i < scene.joints.size(); ++i) {
+        const auto* coupling = std::get_if<Coupling>(&scene.joints[i].kind);
+        const bool whole = !coupling || std::all_of(coupling->joints.begin(), coupling->joints.end(),
+                                                    [&](const CoupledAxis& term) { return is_there(term.joint); });
+        if (whole && is_there(i)) joint_there[i] = next++;
+    }
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-        if (is_joint_gone(i)) continue;
+        if (joint_there[i] == no_body) continue;
         Joint joint = scene.joints[i];
         const physics::Joint& record = state.joints[state.joint_records[i]];
         joint.broken = record.broken != 0;
         joint.angle = angle_to_tell(state, record);
-        const bool no_a = is_missing(joint.a), no_b = is_missing(joint.b);
-        if (no_a || no_b) continue;
-        joint_there[i] = joints.size();
+        if (auto* coupling = std::get_if<Coupling>(&joint.kind)) {
+            coupling->offset = record.anchor_a.x;
+            for (CoupledAxis& term : coupling->joints) term.joint = joint_there[term.joint];
+        }
+        is_missing(joint.a);
+        is_missing(joint.b);
         joints.push_back(std::move(joint));
     }
     now.joints = std::move(joints);

@@ -14,6 +14,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/collide/triangle.h"
+#include "shaders/physics/joint/joint_coupling.h"
 
 namespace scree {
 
@@ -204,9 +205,14 @@ private:
             require(block.first_body == first_body && block.bodies <= 2 * block.joints &&
                         run_in(block.first_body, block.bodies, saved_.block_bodies.size()),
                     "joint block", k, "does not follow the one before it in the table of block bodies");
+            require(block.couplings <= block.joints && (block.couplings == 0 || block.joints <= physics::MAX_COUPLED_BLOCK),
+                    "joint block", k, "has more couplings than there is room for");
             first_joint += block.joints;
             first_body += block.bodies;
-            for (std::size_t j = block.first_joint; j < first_joint; ++j) check_joint(j, block);
+            for (std::size_t j = block.first_joint; j < first_joint; ++j) {
+                check_joint(j, block);
+                check_coupling(j, block);
+            }
         }
         std::vector<physics::uint> blocks_of(bodies);
         for (std::size_t m = 0; m < first_body; ++m) {
@@ -231,6 +237,26 @@ private:
                     "fills in equations of another block");
         require(in_or_none(joint.next_a, saved_.joints.size()) && in_or_none(joint.next_b, saved_.joints.size()), "joint", j,
                 "is followed in a body's list by what is no joint");
+    }
+    // The couplings are the last joints of their block, and couple the others.
+    void check_coupling(std::size_t j, const physics::JointBlock& block) const {
+        const physics::Joint joint = saved_.joints[j];
+        const std::size_t inner = block.first_joint + block.joints - block.couplings;
+        const bool couples = (joint.flags & physics::JOINT_COUPLES) != 0;
+        require(couples == (j >= inner), "joint", j, "is a coupling among joints, or a joint among couplings");
+        if (!couples) return;
+        const physics::uint terms = physics::terms_of_coupling(joint.flags);
+        require(terms <= ((joint.flags & physics::JOINT_CURVED) != 0 ? 4u : 8u) && joint.fill_in == 0 && joint.a == NONE &&
+                    joint.b == NONE && joint.block_body_a == NONE && joint.block_body_b == NONE,
+                "joint", j, "is a coupling of more than there is room for, or of bodies");
+        for (const physics::JointAxis& axis : joint.axes)
+            require(axis.mode == 0, "joint", j, "is a coupling with axes of its own");
+        for (physics::uint t = 0; t < terms; ++t) {
+            const physics::uint of = physics::joint_of_term(joint.fill_in_of[t]), k = physics::axis_of_term(joint.fill_in_of[t]);
+            require(of >= block.first_joint && of < inner && k < 6, "joint", j, "couples what is no joint of its block");
+            const physics::Joint coupled = saved_.joints[of];
+            require(coupled.axes[k].mode != 0, "joint", j, "couples an axis that has no row");
+        }
     }
     // A body's list names each of its joints once.
     void check_joint_lists() const {

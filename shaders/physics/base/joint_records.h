@@ -10,10 +10,11 @@ LAWS_BEGIN
 // An axis's coordinate is the position of B relative to A along or about it. Where B turns about one axis alone, that is x.
 CONSTANT uint AXIS_LOCKED = 1u;
 CONSTANT uint AXIS_LIMITED = 2u;
-CONSTANT uint AXIS_MOTOR = 4u;   // velocity motor; friction is a motor of speed 0
-CONSTANT uint AXIS_SPRING = 8u;  // spring, damper or both
-CONSTANT uint AXIS_ROTOR = 16u;  // armature: the inertia of a rotor
-CONSTANT uint AXIS_CUT = 32u;    // of a joint with JOINT_CUT, where it is not free
+CONSTANT uint AXIS_MOTOR = 4u;     // velocity motor; friction is a motor of speed 0
+CONSTANT uint AXIS_SPRING = 8u;    // spring, damper or both
+CONSTANT uint AXIS_ROTOR = 16u;    // armature: the inertia of a rotor
+CONSTANT uint AXIS_CUT = 32u;      // of a joint with JOINT_CUT, where it is not free
+CONSTANT uint AXIS_COUPLED = 64u;  // a coupling acts on it: its row is placed even if it is free
 struct JointAxis {
     uint mode;           // AXIS_*
     float lower, upper;  // limits of the coordinate, m or rad
@@ -50,6 +51,8 @@ CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies collide with each other
 CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis, so swing axes exclude its twist
 CONSTANT uint JOINT_SWINGS = 16u;   // B may swing half a turn about any axis, where its twist is anything: no turns are counted
 CONSTANT uint JOINT_CUT = 32u;      // of a graph cut into blocks that share several bodies (compute/compile/joint_blocks.h)
+CONSTANT uint JOINT_COUPLES = 64u;  // no joint of two bodies but a coupling of the axes of others (joint_coupling.h)
+CONSTANT uint JOINT_CURVED = 128u;  // of a coupling: its last term is a polynomial
 // The active set: each axis has four bits of Joint.active_set.
 CONSTANT uint MOTOR_AT_MIN = 1u;  // the motor is at its limit, negative
 CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
@@ -89,7 +92,8 @@ struct JointBlock {
     uint first_body, bodies;   // in the table of block bodies
     uint restless;             // 1: one of its bodies is restless in this step
     uint unsettled;            // 1: an active set changed in the last round of the pass
-    uint pad0, pad1;
+    uint couplings;            // of its joints, the last ones
+    uint pad0;
 };
 CONSTANT uint MAX_BLOCK_JOINTS = 128u;
 // A small block: on a device 16 KiB hold its bodies, rows and equations, whatever their fill-in.

@@ -4,6 +4,8 @@
 // variants: relax_joints
 // variants: relax_joints.small -DSCREE_SMALL_BLOCKS
 // variants: relax_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
+// variants: relax_joints.coupled -DSCREE_COUPLED
+// variants: relax_joints.coupled_singly -DSCREE_COUPLED -DSCREE_SINGLY
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -29,8 +31,11 @@ void take_stock(uint j) {
         if (axis.mode == 0u) continue;
         JointRow row = row_of(j, k);
         row.direction = row_vector(j, k, DIRECTION);
+#ifdef SCREE_COUPLED
+        if (is_coupling(j)) row.direction = vec3(1.0f, 0.0f, 0.0f);
+#endif
         vec3 pushed = row_push(row, rotor_of(j, k, axis));
-        if (is_linear(k))
+        if (is_linear(kind_of_row(j, k)))
             push_sum = push_sum + pushed;
         else
             turn_sum = turn_sum + pushed;
@@ -119,6 +124,10 @@ void end_pass() {
         if (holds(j)) commit(j, warms);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    if (leads()) pass_on_impulses();
+    end_part();
+#endif
     push_bodies(FROM_REST);
     end_part();
     FOR_LANES(j, block_joints) {
@@ -127,6 +136,12 @@ void end_pass() {
         if (struck) tear(j);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    FOR_LANES(j, first_coupling())
+    given_impulses[6u * j] = with_couplings(given_impulses[6u * j], block_first_joint + j, block_first_joint + first_coupling(),
+                                            block_first_joint + block_joints);
+    end_part();
+#endif
     note_pressing(struck);
     write_deltas(1.0f, true);
     if (!is_last_substep()) return;

@@ -2,6 +2,8 @@
 // variants: solve_joints
 // variants: solve_joints.small -DSCREE_SMALL_BLOCKS
 // variants: solve_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
+// variants: solve_joints.coupled -DSCREE_COUPLED
+// variants: solve_joints.coupled_singly -DSCREE_COUPLED -DSCREE_SINGLY
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,6 +19,10 @@ void end_pass() {
         if (holds(j)) commit(j, false);
     }
     end_part();
+#ifdef SCREE_COUPLED
+    if (leads()) pass_on_impulses();
+    end_part();
+#endif
     push_bodies(FROM_REST);
     write_deltas(0.0f, false);
 }

@@ -118,6 +118,10 @@ TEST_CASE("few grains cannot follow a curve, and say so", "[grains]") {
     REQUIRE(few.notes().size() == 1);
     CHECK_THAT(few.notes().front(), Catch::StartsWith("/grains: 12 grains miss the sieve curve by "));
     CHECK(GrainSupply(in_a_box(ballast, 5000)).notes().empty());
+    // Between the points of a curve, too: none of these is as large as the largest tenth is to be.
+    const GrainSupply wide(in_a_box({{0.002f, 0}, {0.05f, 100}}, 1000));
+    CHECK(wide.error() > 10);
+    CHECK(wide.notes().size() == 1);
 }
 
 TEST_CASE("grains have the mass, or fill the volume, that is asked for", "[grains]") {

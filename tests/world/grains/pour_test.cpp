@@ -209,6 +209,9 @@ TEST_CASE("scene file: grains that cannot be are refused with their place", "[gr
     CHECK_THAT(refusal("3"), Catch::StartsWith("/grains/0: must be an object"));
     const std::string pour = R"({"size": 0.1, "count": 3, "count_rate": 1, )" + region + "}";
     CHECK_THAT(refusal(pour + "," + pour), Catch::Contains("are named \"grain\", too; give them names"));
+    const std::string named = R"({"name": "grain", "size": 0.1, "count": 3, )" + region + "}";
+    CHECK_THAT(refusal(named + "," + pour),
+               Catch::StartsWith("/events/0/action/pour/name: a body of the scene is named \"grain 2\""));
     CHECK_THAT(refusal("", R"(, "events": [{"time": 0, "action": {"pour": {"size": 0.1, "count": 3, )" + region + "}}}]"),
                Catch::StartsWith("/events/0/action/pour: needs a \"mass_rate\" or \"count_rate\""));
     try {

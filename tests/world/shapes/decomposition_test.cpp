@@ -1,4 +1,5 @@
 // Convex parts of meshes: against closed forms, in motion, and of meshes with flaws.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>
@@ -216,6 +217,13 @@ TEST_CASE("convex parts: flat meshes and sheets are refused, open ones closed", 
     Mesh both = sheet;
     both.triangles.insert(both.triangles.end(), {{0, 1, 2}, {0, 2, 3}});
     CHECK(refusal(of_mesh(both)).find("/bodies/0/shape/mesh: it encloses no volume: it is flat") == 0);
+    Mesh twisted = box_mesh({0, 0, 0}, vec3(0.5f));  // with a thin arm from a corner whose faces point inwards
+    const auto corner = static_cast<std::uint32_t>(std::find(twisted.vertices.begin(), twisted.vertices.end(), vec3(0.5f)) -
+                                                   twisted.vertices.begin());
+    REQUIRE(corner < 8);
+    twisted.vertices.insert(twisted.vertices.end(), {{7.5f, 0.5f, 0.5f}, {7.5f, 1.1f, 0.5f}, {7.5f, 0.5f, 1.1f}});
+    twisted.triangles.insert(twisted.triangles.end(), {{10, 8, corner}, {8, 9, corner}, {9, 10, corner}, {10, 9, 8}});
+    CHECK(refusal(of_mesh(twisted)).find("/bodies/0/shape/mesh: its faces cross so that it encloses no body") == 0);
     Mesh open = box_mesh({0, 0, 0}, vec3(1));
     open.triangles.resize(10);
     const ConvexParts closed = parts_of(open);
