@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_FRAME
-#include "shaders/render/detail.h"
+#include "shaders/render/detail/detail.h"
 
 shared uint totals[SEEN_RUNS];
 shared float least[LIGHT_BOUNDS];

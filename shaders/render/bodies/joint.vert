@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/lines.h"
+#include "shaders/render/marks/lines.h"
 
 layout(std430, set = 0, binding = 21) readonly buffer JointTable {
     Joint joints[];

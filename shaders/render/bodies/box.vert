@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/batch.h"
-#include "shaders/render/cube.h"
+#include "shaders/render/bodies/batch.h"
+#include "shaders/render/bodies/cube.h"
 
 layout(location = 0) out vec3 out_point;      // relative to the eye
 layout(location = 1) out vec3 out_own;        // in the body's frame

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
 #include "shaders/physics/sleep/sleep.h"
-#include "shaders/render/coloring.h"
+#include "shaders/render/bodies/coloring.h"
 
 layout(local_size_x = 128) in;  // DETAIL_GROUP
 

@@ -1,7 +1,7 @@
 // Fills the list of visible bodies, sorted by level of detail.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/render/detail.h"
+#include "shaders/render/detail/detail.h"
 
 shared uint found[DETAIL_GROUP];
 

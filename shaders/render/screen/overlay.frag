@@ -1,7 +1,7 @@
 // Legend and caption: rounded panels, the colour bar, and text from the signed distance field atlas.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/render/coloring.h"
+#include "shaders/render/bodies/coloring.h"
 
 layout(std430, set = 0, binding = 7) readonly buffer OverlayTable {
     OverlayQuad quads[];

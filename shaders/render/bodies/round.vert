@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/batch.h"
+#include "shaders/render/bodies/batch.h"
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
     // Sphere: xy on the unit circle; z: fraction of the distance from the line of sight to the silhouette; w: scale

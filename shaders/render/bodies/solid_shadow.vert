@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
+#include "shaders/render/bodies/solid_mesh.h"
 #include "shaders/render/shadow_map.h"
-#include "shaders/render/solid_mesh.h"
 
 void main() {
     Corner at = corner_of_body();

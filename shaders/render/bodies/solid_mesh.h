@@ -2,7 +2,7 @@
 #ifndef SCREE_RENDER_SOLID_MESH_H
 #define SCREE_RENDER_SOLID_MESH_H
 
-#include "shaders/render/batch.h"
+#include "shaders/render/bodies/batch.h"
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
     // From run.directions: per body the begin of its mesh (x), its vertex count (y), and whether it is scaled by

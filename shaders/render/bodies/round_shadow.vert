@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/batch.h"
+#include "shaders/render/bodies/batch.h"
 #include "shaders/render/shadow_map.h"
 
 layout(location = 0) out vec2 out_place;  // position in radii from the nearest cap's centre

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/solid_mesh.h"
+#include "shaders/render/bodies/solid_mesh.h"
 
 layout(location = 0) out vec3 out_point;   // relative to the eye
 layout(location = 1) out vec3 out_normal;  // in the body's frame

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
 #include "shaders/physics/collide/grid.h"
-#include "shaders/render/batch.h"
-#include "shaders/render/lines.h"
+#include "shaders/render/bodies/batch.h"
+#include "shaders/render/marks/lines.h"
 
 layout(std430, set = 0, binding = 19) readonly buffer BoundsTable {
     Bounds bounds[];

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/batch.h"
-#include "shaders/render/cube.h"
+#include "shaders/render/bodies/batch.h"
+#include "shaders/render/bodies/cube.h"
 #include "shaders/render/shadow_map.h"
 
 void main() {
