@@ -313,7 +313,7 @@ TEST_CASE("fingers of a hand that floats leave its momentum as it is, and a load
     CHECK(std::abs(way(world, 0) + way(world, 1)) < 1e-5);
 }
 
-TEST_CASE("a coupling breaks above its torque and says so; one whose joint has broken does nothing") {
+TEST_CASE("a coupling breaks above its torque and says so, and one whose joint has broken does nothing") {
     Scene scene = weightless();
     const std::size_t a = add_wheel(scene, 0, 1), b = add_wheel(scene, 1, 1), c = add_wheel(scene, 2, 1);
     const std::size_t weak = couple(scene, {.joints = {{a, 1}, {b, 1}}}, unlimited, 6);
