@@ -490,6 +490,7 @@ TEST_CASE("what cannot be coupled is refused by name") {
     says(gear + R"({"joints": [{"joint": "a"}], "limits": {"lower": 1, "upper": 0}}}})", "reversed");
     says(gear + R"({"joints": [{"joint": "a"}]}}, "b": 0})", "a coupling joins joints, not bodies");
     says(gear + R"({"joints": [{"joint": "a"}]}}, "anchor": [1, 0, 0]})", "a coupling is at no place");
+    says(gear + R"({"joints": [{"joint": "a"}]}}, "collide": true})", "joins no bodies that could collide");
     Scene train = weightless();
     for (int i = 0; i < 40; ++i) add_wheel(train, static_cast<float>(i), 1);
     for (std::size_t i = 0; i + 1 < 40; ++i) couple(train, {.joints = {{i, 1}, {i + 1, 1}}});
