@@ -3,10 +3,12 @@
 
 #include <fstream>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene/validation/body_validation.h"
 #include "compute/scene_file/file_grains.h"
 #include "compute/scene_file/import/folder.h"
@@ -24,14 +26,23 @@ public:
         : folder_(std::move(folder)),
           home_(imports::canonical_or_itself(folder_.empty() ? "." : folder_)),
           allow_outside_(allow_outside) {}
+    // A body with a colour of its own has that instead of the file's.
     void read(Body& body, std::size_t index) {
         auto* mesh = std::get_if<Mesh>(&body.shape);
         if (!mesh || mesh->file.empty()) return;
-        const host::MeshFile& found = file(mesh->file, "/bodies/" + std::to_string(index) + "/shape/mesh/file");
+        const std::string pointer = "/bodies/" + std::to_string(index) + "/shape/mesh/file";
+        const host::MeshFile& found = file(mesh->file, pointer);
+        if (!body.color) {
+            mesh->form = form_of(found.surface);
+            if (told_.insert(mesh->file).second)
+                for (const std::string& remark : found.remarks) remarks_.push_back(pointer + ": " + remark);
+        }
         mesh->vertices = found.vertices;
         mesh->triangles = found.triangles;
         for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
     }
+    // What is left out of how meshes look.
+    const std::vector<std::string>& remarks() const { return remarks_; }
     void read(Grains& grains, const std::string& place) {
         for (std::size_t i = 0; i < grains.shapes.size(); ++i) {
             auto* mesh = std::get_if<MeshGrain>(&grains.shapes[i].form);
@@ -61,6 +72,8 @@ private:
     std::filesystem::path folder_, home_;
     bool allow_outside_;
     std::map<std::string, host::MeshFile> files_;  // that several bodies may name
+    std::set<std::string> told_;
+    std::vector<std::string> remarks_;
 };
 
 }  // namespace
@@ -98,6 +111,7 @@ SceneDocument scene_from_text(std::string_view text, const std::filesystem::path
             meshes.read(pour->grains, "/events/" + std::to_string(i) + "/action/pour");
     add_grains(document, notes, most_bodies);
     for (std::size_t i = 0; i < document.scene.bodies.size(); ++i) meshes.read(document.scene.bodies[i], i);
+    if (notes) notes->insert(notes->end(), meshes.remarks().begin(), meshes.remarks().end());
     return document;
 }
 

@@ -30,7 +30,7 @@ public:
     void add(std::uint32_t first_row, const MeshForm& form) {
         for (std::size_t k = 0; k < form.triangles.size(); k += triangles_of_patch) {
             const std::size_t last = std::min(k + triangles_of_patch, form.triangles.size());
-            made.meshes.push_back(patch_mesh(form, k, last));
+            made.meshes.push_back(patch_mesh(form, k, last, made.textures));
             add(first_row + static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(made.meshes.size() - 1));
         }
     }
@@ -97,7 +97,8 @@ private:
         const auto [first, fresh] =
             skins_.try_emplace({std::move(forms), std::move(key)}, static_cast<std::uint32_t>(made.meshes.size()));
         for (std::size_t k = 0; fresh && k < count; ++k)
-            made.meshes.push_back(patch_mesh(compound.skins, k * size, (k + 1) * size, compound.parts[skinned[k]]));
+            made.meshes.push_back(
+                patch_mesh(compound.skins, k * size, (k + 1) * size, compound.parts[skinned[k]], made.textures));
         for (std::uint32_t k = 0; k < count; ++k) add(first_part + skinned[k], first->second + k);
     }
 

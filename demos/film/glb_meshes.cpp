@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <optional>
@@ -111,6 +113,50 @@ void append(Triangles& to, const SharedShape& part, vec3 position, vec4 orientat
         to.normals.push_back(physics::rotate(orientation, glm::normalize(normal / part.scale)));
 }
 
+// Triangles of forms, put in order by their materials.
+class Surfaces {
+public:
+    void add(const MeshForm& form, vec3 position, const glm::quat& turn) {
+        for (std::size_t i = 0; i < form.triangles.size(); ++i) {
+            const TriangleLook look = look_of(form, i);
+            Triangles& to = place_of(look);
+            for (const vec3& corner : form.triangles[i].corners)
+                to.points.push_back(position + turn * (form.triangles[i].middle + corner));
+            to.normals.insert(to.normals.end(), 3, turn * form.triangles[i].normal);
+            to.at.insert(to.at.end(), look.at.begin(), look.at.end());
+            to.colors.insert(to.colors.end(), look.colors.begin(), look.colors.end());
+        }
+    }
+    // Behind others.
+    Triangles finish(Triangles all = {}) {
+        all.points.insert(all.points.end(), plain_.points.begin(), plain_.points.end());
+        all.normals.insert(all.normals.end(), plain_.normals.begin(), plain_.normals.end());
+        if (!materials_.empty()) all.at.resize(all.points.size()), all.colors.resize(all.points.size());
+        for (std::size_t k = 0; k < materials_.size(); ++k) {
+            Triangles& one = of_materials_[k];
+            all.ranges.push_back({*materials_[k], all.points.size()});
+            all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+            all.normals.insert(all.normals.end(), one.normals.begin(), one.normals.end());
+            all.at.insert(all.at.end(), one.at.begin(), one.at.end());
+            all.colors.insert(all.colors.end(), one.colors.begin(), one.colors.end());
+        }
+        return all;
+    }
+
+private:
+    Triangles& place_of(const TriangleLook& look) {
+        if (look.material == nullptr) return plain_;
+        const auto known =
+            std::find_if(materials_.begin(), materials_.end(), [&](const auto* one) { return *one == *look.material; });
+        if (known != materials_.end()) return of_materials_[static_cast<std::size_t>(known - materials_.begin())];
+        materials_.push_back(look.material);
+        return of_materials_.emplace_back();
+    }
+    Triangles plain_;
+    std::vector<const host::SurfaceMaterial*> materials_;
+    std::deque<Triangles> of_materials_;
+};
+
 Triangles plane_mesh(const Plane& plane, float reach, vec3 middle) {
     const vec3 n = plane.normal, centre = middle + n * (plane.offset - glm::dot(n, middle));
     const vec3 u = glm::normalize(glm::cross(std::abs(n.y) < 0.9f ? vec3(0, 1, 0) : vec3(0, 0, 1), n)) * reach,
@@ -139,22 +185,17 @@ Drawn MeshCollection::add(const Shape& shape, float plane_reach, vec3 middle) {
         return shared(made.key, made.scale, std::move(made.triangles));
     }
     if (const MeshForm* form = mesh_form_of(shape)) {
-        Triangles made;
-        for (const MeshForm::Triangle& one : form->triangles) {
-            for (const vec3& corner : one.corners) made.points.push_back(one.middle + corner);
-            made.normals.insert(made.normals.end(), 3, one.normal);
-        }
-        return shared(fmt::format("mesh {}", static_cast<const void*>(form)), vec3(1), std::move(made));
+        Surfaces made;
+        made.add(*form, vec3(0), glm::quat(1, 0, 0, 0));
+        return shared(fmt::format("mesh {}", static_cast<const void*>(form)), vec3(1), made.finish());
     }
-    Triangles made;
+    Triangles parts;
+    Surfaces skins;
     std::string key = "compound";
     const auto& compound = std::get<Compound>(shape);
     for (const Skin& skin : compound.skins) {
         const glm::quat turn(skin.orientation.w, skin.orientation.x, skin.orientation.y, skin.orientation.z);
-        for (const MeshForm::Triangle& one : skin.mesh->form->triangles) {
-            for (const vec3& corner : one.corners) made.points.push_back(skin.position + turn * (one.middle + corner));
-            made.normals.insert(made.normals.end(), 3, turn * one.normal);
-        }
+        skins.add(*skin.mesh->form, skin.position, turn);
         key += fmt::format(" skin {} {} {} {} {} {} {} {}", static_cast<const void*>(skin.mesh->form.get()), skin.position.x,
                            skin.position.y, skin.position.z, skin.orientation.x, skin.orientation.y, skin.orientation.z,
                            skin.orientation.w);
@@ -162,12 +203,12 @@ Drawn MeshCollection::add(const Shape& shape, float plane_reach, vec3 middle) {
     for (const Part& part : compound.parts) {
         if (part.skinned && !compound.skins.empty()) continue;
         const SharedShape one = std::visit([](const auto& convex) { return shared_shape(convex); }, part.shape);
-        append(made, one, part.position, part.orientation);
+        append(parts, one, part.position, part.orientation);
         key += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", one.key, one.scale.x, one.scale.y, one.scale.z, part.position.x,
                            part.position.y, part.position.z, part.orientation.x, part.orientation.y, part.orientation.z,
                            part.orientation.w);
     }
-    return shared(key, vec3(1), std::move(made));
+    return shared(key, vec3(1), skins.finish(std::move(parts)));
 }
 
 }  // namespace scree::demos

@@ -2,17 +2,27 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "compute/scene.h"
+#include "host/files/mesh_surface.h"
 
 namespace scree::demos {
 
 struct Triangles {  // three corners each, counter-clockwise seen from outside
     std::vector<glm::vec3> points, normals;
+    // Corners one after the other that share a material. Corners before the first are of their body; none: all.
+    struct Range {
+        host::SurfaceMaterial material;
+        std::size_t first = 0;
+    };
+    std::vector<Range> ranges;
+    std::vector<glm::vec2> at;          // texture coordinates of corners, if there are ranges
+    std::vector<std::uint32_t> colors;  // factors of corners, packed_levels(), likewise
 };
 
 // How a body is drawn: a mesh of the collection, by index, scaled along the body's axes.

@@ -24,6 +24,23 @@ vec3 on_circle(int k) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
     return {std::cos(angle), 0, std::sin(angle)};
 }
+// Of the corners of a triangle that is yet to come.
+void add_surface(host::SolidMesh& mesh, const MeshForm& form, std::size_t triangle, std::vector<host::CanvasTexture>& textures) {
+    const TriangleLook look = look_of(form, triangle);
+    if (look.material == nullptr && mesh.surface.empty()) return;
+    mesh.surface.resize(mesh.corners.size() / 2, glm::vec4(0, 0, host::of_body, 0));
+    float texture = look.material ? host::untextured : host::of_body;
+    if (look.material && look.material->image) {
+        const host::CanvasTexture wanted{look.material->image, look.material->across, look.material->down};
+        const auto known = std::find(textures.begin(), textures.end(), wanted);
+        texture = static_cast<float>(known - textures.begin());
+        if (known == textures.end()) textures.push_back(wanted);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const vec3 color = look.material ? look.material->color * host::linear_of_levels(look.colors[k]) : vec3(0);
+        mesh.surface.emplace_back(look.at[k], texture, static_cast<float>(host::packed_levels(color)));
+    }
+}
 // A disc at a height, facing up or down.
 void add_disc(host::SolidMesh& mesh, float height, float up) {
     const vec3 lift(0, height, 0), normal(0, up, 0);
@@ -88,9 +105,29 @@ host::SolidMesh hull_mesh(const Hull& hull) {
     return mesh;
 }
 
-host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last) {
+TriangleLook look_of(const MeshForm& form, std::size_t triangle) {
+    TriangleLook look;
+    const host::MeshSurface* surface = form.surface.get();
+    if (surface == nullptr || triangle >= form.origins.size() || form.origins[triangle] / 3 >= surface->triangles.size())
+        return look;
+    const host::MeshSurface::Triangle& one = surface->triangles[form.origins[triangle] / 3];
+    const bool white = one.colors == host::MeshSurface::Triangle{}.colors;
+    if (one.material == 0 && white) return look;
+    look.material = &surface->materials[one.material];
+    const std::size_t turns = form.origins[triangle] % 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec2 at = one.at[(k + turns) % 3];
+        for (int i = 0; i < 2; ++i) look.at[k][i] = std::abs(at[i]) <= 1e6f ? at[i] : 0;  // also where it is no number
+        look.colors[k] = one.colors[(k + turns) % 3];
+    }
+    return look;
+}
+
+host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last,
+                           std::vector<host::CanvasTexture>& textures) {
     host::SolidMesh mesh;
     for (std::size_t k = first; k < last; ++k) {
+        add_surface(mesh, form, k, textures);
         const MeshForm::Triangle& triangle = form.triangles[k];
         for (const vec3& corner : triangle.corners)
             add(mesh, triangle.middle + corner - form.triangles[first].middle, triangle.normal);
@@ -98,7 +135,8 @@ host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t 
     return mesh;
 }
 
-host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, std::size_t last, const Part& part) {
+host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, std::size_t last, const Part& part,
+                           std::vector<host::CanvasTexture>& textures) {
     const auto turn_of = [](vec4 q) { return glm::quat(q.w, q.x, q.y, q.z); };
     const glm::quat back = glm::conjugate(turn_of(part.orientation));
     host::SolidMesh mesh;
@@ -108,6 +146,7 @@ host::SolidMesh patch_mesh(const std::vector<Skin>& skins, std::size_t first, st
         const std::vector<MeshForm::Triangle>& all = skin.mesh->form->triangles;
         for (std::size_t k = std::max(first, before); k < std::min(last, before + all.size()); ++k) {
             const MeshForm::Triangle& one = all[k - before];
+            add_surface(mesh, *skin.mesh->form, k - before, textures);
             for (const vec3& corner : one.corners)
                 add(mesh, back * (skin.position + turn * (one.middle + corner) - part.position), back * (turn * one.normal));
         }

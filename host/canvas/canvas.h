@@ -20,6 +20,7 @@
 
 #include "host/canvas/camera.h"
 #include "host/canvas/colors.h"
+#include "host/canvas/texels.h"
 #include "host/pictures/image.h"
 
 namespace scree::host {
@@ -73,7 +74,12 @@ struct SolidMesh {
     // Per triangle three corners of two vectors each: position, and the width of edges in m, 0: none; normal, and the distance to
     // the edge of the face in m.
     std::vector<glm::vec4> corners;
+    // Of each corner, for ColorBy::own: texture coordinates; place in ShapeInstances::textures, or one of the numbers below; a
+    // colour, its factor, as packed_levels(). Empty: all corners have their body's colour.
+    std::vector<glm::vec4> surface{};
 };
+constexpr float untextured = -1;  // the colour alone
+constexpr float of_body = -2;     // the body's colour
 
 // Bodies grouped by shape, as row indices into BodyTables; fixed for the canvas's lifetime.
 struct ShapeInstances {
@@ -81,6 +87,7 @@ struct ShapeInstances {
     std::vector<std::uint32_t> solids;        // all other shapes
     std::vector<std::uint32_t> solid_meshes;  // for each entry of solids, its index into meshes
     std::vector<SolidMesh> meshes;
+    std::vector<CanvasTexture> textures;
 };
 
 // Light and background.

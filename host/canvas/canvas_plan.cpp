@@ -78,7 +78,7 @@ vec4 clear_color(const CanvasOptions& options) {
     return options.background || !options.backdrop ? vec4(0) : vec4(*options.backdrop, 1);
 }
 
-std::vector<Draw> draws_of(const CanvasOptions& options) {
+std::vector<Draw> draws_of(const CanvasOptions& options, bool textured) {
     std::vector<Draw> draws;
     for (const Pass map : {Pass::sun_map, Pass::sky_map}) {
         if (!options.shadows) break;
@@ -104,6 +104,12 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     };
     seen("box.vert", "box.frag", Mesh::box, RUN_BOXES);
     seen("solid.vert", "solid.frag", Mesh::solid, RUN_SOLIDS);
+    // A pipeline of its own: pictures without surfaces pay nothing for them.
+    if (textured) {
+        bodies.back().when = When::other_colors;
+        seen("textured.vert", "textured.frag", Mesh::solid, RUN_SOLIDS);
+        bodies.back().when = When::own_colors;
+    }
     const auto finer = [](Mesh coarsest, std::uint32_t k) { return static_cast<Mesh>(static_cast<std::uint32_t>(coarsest) + k); };
     for (std::uint32_t k = 0; k < SPHERE_DETAILS; ++k)
         seen("round.vert", "round.frag", finer(Mesh::sphere_0, k), RUN_SPHERES + k);

@@ -36,9 +36,10 @@ enum Binding : std::uint32_t {
     TINTS,  // the colour of each body, written on the device
     JOINTS,
     IDS,
-    COLORS
+    COLORS,
+    TEXELS  // texels_of()
 };
-constexpr std::uint32_t BINDINGS = COLORS + 1;
+constexpr std::uint32_t BINDINGS = TEXELS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables
@@ -86,6 +87,9 @@ struct DrawState {
     bool operator==(const DrawState&) const = default;
 };
 
+// Draws that depend on the colours of a picture.
+enum class When { always, own_colors, other_colors };
+
 struct Draw {
     DrawState state;
     Items items = Items::one;
@@ -93,6 +97,8 @@ struct Draw {
     std::uint32_t corners = 0;  // vertices per item, for Mesh::none
     std::uint32_t run = 0;      // RUN_* (frame.h), for Items::bodies
     std::uint32_t pushed = 0;   // push constant of the vertex shader, if it has one
+    When when = When::always;
+    bool is_for(ColorBy by) const { return when == When::always || (when == When::own_colors) == (by == ColorBy::own); }
 };
 
 // Push constant of the bodies' vertex shaders: run in the upper 24 bits, value in the lower 8.
@@ -113,6 +119,7 @@ CanvasOptions with_samples(CanvasOptions options, int most, bool is_processor);
 vec4 clear_color(const CanvasOptions& options);
 
 // The draws of a picture, sorted by pass. `options.samples` must be resolved to 1 or 4.
-std::vector<Draw> draws_of(const CanvasOptions& options);
+// `textured`: solids have surfaces.
+std::vector<Draw> draws_of(const CanvasOptions& options, bool textured);
 
 }  // namespace scree::host

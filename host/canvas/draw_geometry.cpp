@@ -84,15 +84,24 @@ void Scenery::add_meshes() {
 void Scenery::add_solids(const ShapeInstances& bodies) {
     std::vector<glm::vec4> table(bodies.solids.empty() ? 0 : records);
     std::vector<std::size_t> begins;
-    std::size_t most = 3;
+    std::size_t most = 3, size = table.size();
+    for (const SolidMesh& mesh : bodies.meshes) {
+        size += mesh.corners.size() + mesh.surface.size();
+        textured = textured || !mesh.surface.empty();
+    }
+    // Places in the table are floats, which count exactly that far.
+    textured = textured && size <= std::size_t{1} << 24;
     for (const SolidMesh& mesh : bodies.meshes) {
         begins.push_back(table.size());
         most = std::max(most, mesh.corners.size() / 2);
         table.insert(table.end(), mesh.corners.begin(), mesh.corners.end());
+        if (textured) table.insert(table.end(), mesh.surface.begin(), mesh.surface.end());
     }
+    if (textured) texels = texels_of(bodies.textures);
     for (std::size_t i = 0; i < bodies.solids.size(); ++i) {
         const std::uint32_t mesh = bodies.solid_meshes.at(i);
-        table[bodies.solids[i]] = {begins[mesh], bodies.meshes[mesh].corners.size() / 2, bodies.meshes[mesh].stretched, 0};
+        table[bodies.solids[i]] = {begins[mesh], bodies.meshes[mesh].corners.size() / 2, bodies.meshes[mesh].stretched,
+                                   textured && !bodies.meshes[mesh].surface.empty()};
     }
     std::vector<std::uint32_t> triangles(most);
     std::iota(triangles.begin(), triangles.end(), 0u);

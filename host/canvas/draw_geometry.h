@@ -34,6 +34,8 @@ struct Scenery {
     Run items(Items kind, const BodyTables& tables, std::uint32_t quads) const;
     std::uint32_t bodies() const { return runs[RUN_PLANES].first; }  // bodies that are no planes
     std::uint32_t records = 1;                                       // rows of the body tables
+    bool textured = false;                                           // solids have surfaces
+    std::vector<std::uint32_t> texels;                               // texels_of() their textures
 
 private:
     void add_mesh(Mesh as, std::uint32_t run, std::uint32_t corners, const std::vector<std::uint32_t>& triangles,

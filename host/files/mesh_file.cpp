@@ -2,12 +2,14 @@
 #include "host/files/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <set>
 #include <utility>
 
 #include "host/files/json_depth.h"
@@ -51,9 +53,147 @@ struct Elements {
     int component;
 };
 
+// Of a primitive.
+struct GltfLook {
+    std::size_t material = 0;  // of the surface
+    std::string coordinates;   // attribute of texture coordinates; empty: no image
+    glm::mat3x2 map{1};        // of coordinates: the extension KHR_texture_transform
+    std::vector<glm::vec4> at, colors;
+};
+
+// Materials and images of a glTF file as surfaces of its meshes.
+class GltfSurfaces {
+public:
+    GltfSurfaces(const tinygltf::Model& model, const std::string& name, const std::filesystem::path& folder)
+        : model_(model), name_(name), folder_(folder), images_(model.images.size()) {}
+
+    GltfLook look_of(const tinygltf::Primitive& primitive) {
+        GltfLook look;
+        const auto index = static_cast<std::size_t>(primitive.material);
+        if (primitive.material < 0 || index >= model_.materials.size()) return look;
+        look.material = index + 1;
+        any_ = true;
+        if (materials_.empty()) materials_.resize(1 + model_.materials.size());
+        const tinygltf::Material& from = model_.materials[index];
+        const tinygltf::TextureInfo& texture = from.pbrMetallicRoughness.baseColorTexture;
+        SurfaceMaterial& made = materials_[look.material];
+        if (!known_.contains(index)) made = material_of(from, index);
+        known_.insert(index);
+        if (!made.image) return look;
+        look.coordinates = "TEXCOORD_" + std::to_string(std::max(texture.texCoord, 0));
+        if (const auto moved = texture.extensions.find("KHR_texture_transform"); moved != texture.extensions.end()) {
+            const tinygltf::Value& map = moved->second;
+            const auto number = [&](const char* key, std::size_t k, double otherwise) {
+                const tinygltf::Value& list = map.Has(key) ? map.Get(key) : map;
+                const double value = list.IsArray() && k < list.ArrayLen() ? list.Get(k).GetNumberAsDouble() : otherwise;
+                return static_cast<float>(std::abs(value) <= 1e6 ? value : otherwise);
+            };
+            const double turn = map.Has("rotation") ? map.Get("rotation").GetNumberAsDouble() : 0;
+            const float c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+            const glm::vec2 scale(number("scale", 0, 1), number("scale", 1, 1));
+            if (std::isfinite(c))
+                look.map = {
+                    scale.x * glm::vec2(c, -s), scale.y * glm::vec2(s, c), {number("offset", 0, 0), number("offset", 1, 0)}};
+            if (map.Has("texCoord")) look.coordinates = "TEXCOORD_" + std::to_string(map.Get("texCoord").GetNumberAsInt());
+        }
+        if (!primitive.attributes.contains(look.coordinates)) {
+            remark(index, "its image is left out: a mesh has no texture coordinates (" + look.coordinates + ")");
+            SurfaceMaterial plain = made;
+            plain.image = nullptr;
+            const auto at = std::find(materials_.begin(), materials_.end(), plain);
+            look.material = static_cast<std::size_t>(at - materials_.begin());
+            if (at == materials_.end()) materials_.push_back(std::move(plain));
+            look.coordinates.clear();
+        }
+        return look;
+    }
+
+    // The triangle put last into the mesh; vertices count from the primitive's first.
+    void add(const GltfLook& look, const std::array<std::uint32_t, 3>& vertices, const MeshFile& mesh) {
+        if (look.material == 0 && look.colors.empty()) return;
+        any_ = true;
+        triangles_.resize(mesh.triangles.size());
+        MeshSurface::Triangle& made = triangles_.back();
+        made.material = static_cast<std::uint32_t>(look.material);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!look.at.empty()) made.at[k] = look.map * glm::vec3(glm::vec2(look.at[vertices[k]]), 1);
+            if (!look.colors.empty()) made.colors[k] = packed_levels(glm::vec3(look.colors[vertices[k]]));
+        }
+    }
+    void finish(MeshFile& mesh) {
+        if (any_ && !mesh.triangles.empty()) {
+            triangles_.resize(mesh.triangles.size());
+            if (materials_.empty()) materials_.resize(1);
+            mesh.surface = shared_surface(part_of({materials_, std::move(triangles_)}, 0, mesh.triangles.size()));
+        }
+        mesh.remarks = std::exchange(remarks_, {});
+        triangles_.clear();
+        any_ = false;
+    }
+
+private:
+    void remark(std::size_t index, const std::string& text) {
+        const std::string& called = model_.materials[index].name;
+        std::string line = name_ + ": material " + (called.empty() ? std::to_string(index) : "\"" + called + "\"") + ": " + text;
+        if (std::find(remarks_.begin(), remarks_.end(), line) == remarks_.end()) remarks_.push_back(std::move(line));
+    }
+    static Wrap wrap_of(int word) {
+        return word == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+               : word == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                               : Wrap::repeat;
+    }
+    SurfaceMaterial material_of(const tinygltf::Material& from, std::size_t index) {
+        SurfaceMaterial made{from.name.empty() ? "material " + std::to_string(index) : from.name};
+        const std::vector<double>& rgba = from.pbrMetallicRoughness.baseColorFactor;
+        if (rgba.size() >= 3) made.color = glm::clamp(glm::vec3(glm::dvec3(rgba[0], rgba[1], rgba[2])), 0.0f, 1.0f);
+        const int texture = from.pbrMetallicRoughness.baseColorTexture.index;
+        if (texture < 0) return made;
+        if (static_cast<std::size_t>(texture) >= model_.textures.size()) {
+            remark(index, "its texture " + std::to_string(texture) + " is not there");
+            return made;
+        }
+        const tinygltf::Texture& found = model_.textures[static_cast<std::size_t>(texture)];
+        if (found.sampler >= 0 && static_cast<std::size_t>(found.sampler) < model_.samplers.size()) {
+            made.across = wrap_of(model_.samplers[static_cast<std::size_t>(found.sampler)].wrapS);
+            made.down = wrap_of(model_.samplers[static_cast<std::size_t>(found.sampler)].wrapT);
+        }
+        if (found.source < 0 || static_cast<std::size_t>(found.source) >= model_.images.size()) {
+            remark(index, "its texture has no image that is read here");
+            return made;
+        }
+        const auto source = static_cast<std::size_t>(found.source);
+        const tinygltf::Image& image = model_.images[source];
+        const std::string called = !image.uri.empty() ? image.uri : !image.name.empty() ? image.name : std::to_string(source);
+        try {
+            if (!images_[source]) images_[source] = read(image, called);
+            made.image = images_[source];
+        } catch (const FileError& error) {
+            remark(index, "its image \"" + called.substr(0, 200) + "\" is left out: " + error.what());
+        }
+        return made;
+    }
+    std::shared_ptr<const SurfaceImage> read(const tinygltf::Image& image, const std::string& called) const {
+        if (!image.image.empty()) return surface_image(called, {image.image.begin(), image.image.end()});
+        if (image.uri.empty()) throw FileError("it is empty");
+        if (folder_.empty()) throw FileError("it is a file of its own");
+        return image_beside(folder_, tinygltf::dlib::urldecode(image.uri));
+    }
+
+    const tinygltf::Model& model_;
+    const std::string name_;
+    const std::filesystem::path folder_;
+    std::vector<std::shared_ptr<const SurfaceImage>> images_;
+    std::vector<SurfaceMaterial> materials_;
+    std::set<std::size_t> known_;
+    std::vector<MeshSurface::Triangle> triangles_;
+    std::vector<std::string> remarks_;
+    bool any_ = false;
+};
+
 class Gltf {
 public:
-    Gltf(const tinygltf::Model& model, const Source& source) : model_(model), source_(source) {}
+    Gltf(const tinygltf::Model& model, const Source& source, const std::filesystem::path& folder)
+        : model_(model), source_(source), surfaces_(model, source.name, folder) {}
 
     MeshFile triangles() {
         refuse_packed();
@@ -63,6 +203,7 @@ public:
         } else {
             for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) add_mesh(mesh, glm::dmat4(1));
         }
+        surfaces_.finish(mesh_);
         return std::move(mesh_);
     }
 
@@ -71,6 +212,7 @@ public:
         std::vector<MeshFile> meshes;
         for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
             add_mesh(mesh, glm::dmat4(1));
+            surfaces_.finish(mesh_);
             meshes.push_back(std::exchange(mesh_, MeshFile{}));
         }
         return meshes;
@@ -152,6 +294,7 @@ private:
                                    std::to_string(places.count));
             }
         }
+        const GltfLook look = look_of(primitive, places.count, place);
         const bool mirrored = glm::determinant(glm::dmat3(turn)) < 0;
         const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
         for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
@@ -160,6 +303,7 @@ private:
             std::uint32_t b = corners[i + 1], c = corners[i + 2];
             if (odd != mirrored) std::swap(b, c);
             mesh_.triangles.emplace_back(base + a, base + b, base + c);
+            surfaces_.add(look, {a, b, c}, mesh_);
         }
     }
 
@@ -192,8 +336,45 @@ private:
         for (const int child : node.children) add_node(child, turn, depth + 1);
     }
 
+    // Up to four floats of each vertex, of floats or normalised integers; none if the attribute is missing.
+    std::vector<glm::vec4> attribute(const tinygltf::Primitive& primitive, const std::string& name, std::size_t count,
+                                     const std::string& place) {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end()) return {};
+        const auto index = static_cast<std::size_t>(found->second);
+        const int type = index < model_.accessors.size() ? model_.accessors[index].type : TINYGLTF_TYPE_VEC2;
+        if (type != TINYGLTF_TYPE_VEC2 && type != TINYGLTF_TYPE_VEC3 && type != TINYGLTF_TYPE_VEC4)
+            source_.refuse(place + ": its " + name + " has elements of the wrong type");
+        const Elements all = elements(found->second, type, place);
+        if (all.count < count) source_.refuse(place + ": its " + name + " is shorter than its POSITION");
+        std::vector<glm::vec4> values(count, glm::vec4(0, 0, 0, 1));
+        const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+        for (std::size_t i = 0; i < count; ++i)
+            for (int k = 0; k < components; ++k) values[i][k] = component(all, i, k);
+        return values;
+    }
+    static float component(const Elements& all, std::size_t i, int k) {
+        const unsigned char* at = all.first + i * all.stride;
+        if (all.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return static_cast<float>(at[k]) / 255;
+        if (all.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+            std::uint16_t value = 0;
+            std::memcpy(&value, at + 2 * k, sizeof value);
+            return static_cast<float>(value) / 65535;
+        }
+        float value = 0;
+        if (all.component == TINYGLTF_COMPONENT_TYPE_FLOAT) std::memcpy(&value, at + 4 * k, sizeof value);
+        return std::isfinite(value) ? value : 0;
+    }
+    GltfLook look_of(const tinygltf::Primitive& primitive, std::size_t count, const std::string& place) {
+        GltfLook look = surfaces_.look_of(primitive);
+        if (!look.coordinates.empty()) look.at = attribute(primitive, look.coordinates, count, place);
+        look.colors = attribute(primitive, "COLOR_0", count, place);
+        return look;
+    }
+
     const tinygltf::Model& model_;
     const Source& source_;
+    GltfSurfaces surfaces_;
     MeshFile mesh_;
     std::size_t nodes_ = 0;
 };
@@ -240,9 +421,12 @@ void load_gltf(tinygltf::Model& model, std::string_view bytes, bool binary, cons
         source.refuse(*place + ": lies in more than " + std::to_string(most_depth) +
                       " arrays and objects; write the file without such \"extras\"");
     tinygltf::TinyGLTF loader;
-    // Skip images, which collision does not need.
+    // Images stay encoded.
     loader.SetImageLoader(
-        [](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
+        [](tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* first, int size, void*) {
+            if (size > 0) image->image.assign(first, first + size);
+            return true;
+        },
         nullptr);
     std::filesystem::path base = folder.empty() ? "." : folder;
     loader.SetFsCallbacks({&buffer_exists, [](const std::string& path, void*) { return path; }, &read_buffer, nullptr, &base});
@@ -258,7 +442,7 @@ void load_gltf(tinygltf::Model& model, std::string_view bytes, bool binary, cons
 MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
     tinygltf::Model model;
     load_gltf(model, bytes, binary, source, folder);
-    return Gltf(model, source).triangles();
+    return Gltf(model, source, folder).triangles();
 }
 
 std::string ending_of(const std::string& name) {
@@ -275,7 +459,7 @@ std::vector<MeshFile> meshes_of_gltf(std::string_view bytes, const std::string& 
     const Source source{name};
     tinygltf::Model model;
     load_gltf(model, bytes, ending_of(name) == ".glb", source, folder);
-    return Gltf(model, source).each_mesh();
+    return Gltf(model, source, folder).each_mesh();
 }
 
 std::string_view json_of_gltf(std::string_view bytes, const std::string& name) {
@@ -288,7 +472,7 @@ std::string_view json_of_gltf(std::string_view bytes, const std::string& name) {
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
     const Source source{name};
     const std::string ending = ending_of(name);
-    MeshFile mesh = ending == ".obj"   ? mesh_of_obj(bytes, name)
+    MeshFile mesh = ending == ".obj"   ? mesh_of_obj(bytes, name, folder)
                     : ending == ".stl" ? mesh_of_stl(bytes, name)
                                        : from_gltf(bytes, ending == ".glb", source, folder);
     if (mesh.triangles.empty()) source.refuse("has no triangles");
@@ -300,7 +484,7 @@ MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::fil
 
 MeshFile read_mesh(const std::filesystem::path& path) {
     ending_of(path.string());  // refused before the file is read
-    return mesh_of(read_regular(path, most_bytes), path.string(), path.parent_path());
+    return mesh_of(read_regular(path, most_bytes), path.string(), path.has_parent_path() ? path.parent_path() : ".");
 }
 
 }  // namespace scree::host

@@ -84,8 +84,8 @@ bool has_area(std::span<const vec3> vertices, const uvec3& t) {
     return glm::length(glm::cross(b - a, c - a)) > least_height * longest * longest;
 }
 
-uvec3 rotated_to_least(uvec3 t) {
-    while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};
+uvec3 rotated_to_least(uvec3 t, std::uint32_t& turns) {
+    for (turns = 0; t[0] > t[1] || t[0] > t[2]; ++turns) t = {t[1], t[2], t[0]};
     return t;
 }
 
@@ -145,7 +145,8 @@ vec3 limit_of(dvec3 own, dvec3 outward, const dvec3* neighbours) {
 
 }  // namespace
 
-std::vector<uvec3> welded_triangles(std::span<const vec3> vertices, std::span<const uvec3> given) {
+std::vector<uvec3> welded_triangles(std::span<const vec3> vertices, std::span<const uvec3> given,
+                                    std::vector<std::uint32_t>* origins) {
     if (given.empty()) throw MeshError("/triangles", "there are none");
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
@@ -157,17 +158,22 @@ std::vector<uvec3> welded_triangles(std::span<const vec3> vertices, std::span<co
                                                                        std::to_string(vertices.size()) + " (they count from 0)");
     const std::vector<std::uint32_t> first = welded(vertices);
     std::vector<uvec3> triangles, all;
-    for (const uvec3& t : given) all.push_back(rotated_to_least({first[t[0]], first[t[1]], first[t[2]]}));
+    std::vector<std::uint32_t> turns(given.size());
+    for (std::size_t i = 0; i < given.size(); ++i)
+        all.push_back(rotated_to_least({first[given[i][0]], first[given[i][1]], first[given[i][2]]}, turns[i]));
     const std::vector<bool> is_first = first_of_equal(all);
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (is_first[i] && has_area(vertices, all[i])) triangles.push_back(all[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!is_first[i] || !has_area(vertices, all[i])) continue;
+        triangles.push_back(all[i]);
+        if (origins) origins->push_back(static_cast<std::uint32_t>(3 * i) + turns[i]);
+    }
     if (triangles.empty()) throw MeshError("/triangles", "all of them are degenerate");
     return triangles;
 }
 
 MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given) {
     MeshForm form;
-    const std::vector<uvec3> triangles = welded_triangles(vertices, given);
+    const std::vector<uvec3> triangles = welded_triangles(vertices, given, &form.origins);
     form.dropped = given.size() - triangles.size();
 
     const Edges edges = edges_of(triangles);
@@ -245,6 +251,17 @@ std::string oddities(const MeshForm& form) {
         text += (text.empty() ? "" : "; ") +
                 std::string("inside out: its faces point inward, and hold bodies inside; exchange two corners of each triangle");
     return text;
+}
+
+std::shared_ptr<const host::MeshSurface> surface_of(const Mesh& mesh) {
+    return mesh.form ? mesh.form->surface : nullptr;
+}
+
+std::shared_ptr<const MeshForm> form_of(std::shared_ptr<const host::MeshSurface> surface) {
+    if (!surface) return nullptr;
+    auto form = std::make_shared<MeshForm>();
+    form->surface = std::move(surface);
+    return form;
 }
 
 const MeshForm* mesh_form_of(const Shape& shape) {

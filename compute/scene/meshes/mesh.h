@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -13,6 +14,10 @@
 #include "compute/scene.h"
 
 namespace scree {
+
+namespace host {
+struct MeshSurface;
+}
 
 struct MeshForm {
     struct Triangle {
@@ -27,6 +32,11 @@ struct MeshForm {
         std::array<glm::vec3, 3> limits;
     };
     std::vector<Triangle> triangles;
+    // Of each: 3 * t + k, if its first corner is corner k of the mesh's triangle t.
+    std::vector<std::uint32_t> origins;
+    // How the mesh's triangles look, for pictures alone; null: as their body. A mesh from a file has it before the check, in a
+    // form that has nothing else.
+    std::shared_ptr<const host::MeshSurface> surface;
     float reach = 0;  // distance of the farthest vertex from the body's origin, m
 
     std::size_t dropped = 0;    // degenerate or repeated triangles
@@ -48,8 +58,14 @@ struct MeshError : std::runtime_error {
 // triangles are dropped.
 MeshForm mesh_form(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles);
 MeshForm mesh_form(const HeightField& field);
-// The triangles that mesh_form() keeps, with the first of the vertices at each place. Throws MeshError for what has none.
-std::vector<glm::uvec3> welded_triangles(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles);
+// The triangles that mesh_form() keeps, with the first of the vertices at each place, and MeshForm::origins. Throws MeshError for
+// what has none.
+std::vector<glm::uvec3> welded_triangles(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles,
+                                         std::vector<std::uint32_t>* origins = nullptr);
+// Null if it has none.
+std::shared_ptr<const host::MeshSurface> surface_of(const Mesh& mesh);
+// A form that has a surface alone; null for none.
+std::shared_ptr<const MeshForm> form_of(std::shared_ptr<const host::MeshSurface> surface);
 
 // Of a checked mesh or height field; null for other shapes.
 const MeshForm* mesh_form_of(const Shape& shape);

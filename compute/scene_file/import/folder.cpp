@@ -34,7 +34,8 @@ constexpr double far_from_convex = 0.05;
 
 // Null where the hull will do, or the triangles enclose nothing.
 std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
-                                               std::size_t first, std::size_t end, std::string& remark) {
+                                               std::size_t first, std::size_t end, const host::MeshSurface* surface,
+                                               const std::vector<vec3>& hull, std::string& remark) {
     Mesh skin;
     std::map<std::uint32_t, std::uint32_t> places;
     for (std::size_t t = first; t < end; ++t) {
@@ -45,13 +46,23 @@ std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices
             made[k] = place->second;
         }
     }
+    bool colorful = false;
+    if (surface != nullptr) {
+        host::MeshSurface own = host::part_of(*surface, first, end);
+        colorful = !host::is_plain(own);
+        skin.form = form_of(host::shared_surface(std::move(own)));
+    }
+    const auto as_hull = [&]() -> std::shared_ptr<const Compound> {
+        if (!colorful) return nullptr;
+        return std::make_shared<const Compound>(compound_of({.parts = {hull}}, std::make_shared<const Mesh>(std::move(skin))));
+    };
     try {
-        if (hull_error(skin.vertices, skin.triangles) <= far_from_convex) return nullptr;
+        if (hull_error(skin.vertices, skin.triangles) <= far_from_convex) return as_hull();
         const std::shared_ptr<const ConvexParts> made = convex_parts(skin.vertices, skin.triangles, {});
         if (remark.empty()) remark = summary_of(*made);
         return std::make_shared<const Compound>(compound_of(*made, std::make_shared<const Mesh>(std::move(skin))));
     } catch (const DecompositionError&) {
-        return nullptr;
+        return as_hull();
     } catch (const MeshError&) {
         return nullptr;
     }
@@ -83,7 +94,7 @@ void map_mesh(const MeshMap& map, std::vector<vec3>& vertices, std::vector<glm::
 }
 
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
-                     const std::vector<std::size_t>& groups, bool parts) {
+                     const std::vector<std::size_t>& groups, bool parts, const host::MeshSurface* surface) {
     MeshSolid solid;
     SolidMass of_hulls;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -91,7 +102,8 @@ MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::u
         try {
             solid.hulls.push_back(corners_of_group(vertices, triangles, groups[g], end));
             solid.groups.push_back(g);
-            solid.parts.push_back(parts ? parts_of_group(vertices, triangles, groups[g], end, solid.remark) : nullptr);
+            solid.parts.push_back(
+                parts ? parts_of_group(vertices, triangles, groups[g], end, surface, solid.hulls.back(), solid.remark) : nullptr);
             of_hulls = sum_of(of_hulls, hull_mass(solid.hulls.back()));
         } catch (const HullError& error) {
             solid.flaw = error.what();
@@ -192,9 +204,12 @@ std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::strin
     try {
         host::MeshFile file = host::mesh_of(bytes(at, name), path, std::filesystem::path(path).parent_path());
         map_mesh(map, file.vertices, file.triangles);
+        if (file.surface && glm::determinant(map.linear) < 0)
+            file.surface = host::shared_surface(host::turned_over(*file.surface));
         if (!groups || file.groups.empty()) file.groups = {0};
         if (file.groups.size() > most_groups) refuse(at, "\"" + name + "\" has more than 10000 groups");
-        MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, parts);
+        MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, parts, file.surface.get());
+        solid.lost_looks = std::move(file.remarks);
         if (groups) give_colors(path, file, solid);
         made = std::make_shared<MeshSolid>(std::move(solid));
     } catch (const host::FileError& error) {

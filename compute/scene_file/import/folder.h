@@ -35,6 +35,7 @@ struct MeshSolid {
     std::vector<std::size_t> groups;                     // of the mesh, that the hulls are of
     std::vector<std::optional<vec3>> colors;             // of the hulls, sRGB; of folder.mesh() with groups alone
     std::string lost_colors;                             // why some are not known
+    std::vector<std::string> lost_looks;                 // what is left out of how it looks
     std::string flaw;                                    // why there is none
     SolidMass mass;        // of what the triangles enclose, density 1; of the hulls if they enclose nothing
     bool encloses = true;  // whether the triangles do
@@ -72,7 +73,8 @@ private:
 };
 
 // Of vertices and triangles that are in memory.
+// A hull whose mesh has several colours or an image becomes a convex part, whose skin is the mesh.
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
-                     const std::vector<std::size_t>& groups, bool parts = false);
+                     const std::vector<std::size_t>& groups, bool parts = false, const host::MeshSurface* surface = nullptr);
 
 }  // namespace scree::imports

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene_file/import/gltf_joints.h"
 #include "compute/scene_file/import/gltf_materials.h"
 #include "compute/scene_file/import/gltf_shapes.h"
@@ -53,6 +55,7 @@ private:
     void add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like);
     void add_surface(const host::MeshFile& mesh, const Geometry& like);
     void collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into, int depth);
+    void append_looks(std::size_t before, const host::MeshFile& one, bool mirrored);
     void collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into);
     const std::vector<host::MeshFile>& meshes();
     std::size_t child_of(const GltfValue& list, std::size_t i) const;
@@ -70,6 +73,7 @@ private:
     std::vector<std::pair<std::size_t, GltfValue>> joints_;   // by node
     std::vector<std::pair<std::size_t, GltfValue>> motions_;  // by body
     std::vector<glm::dmat4> body_nodes_{glm::dmat4(1)};       // their nodes' transforms
+    host::MeshSurface looks_;                                 // of what is collected
     std::vector<Body> surfaces_;                              // static triangle meshes
     Model model_;
 };
@@ -148,10 +152,21 @@ void Gltf::add_shape(GltfValue shape, const glm::dmat4& frame, Geometry like, Mo
     }
 }
 
+void Gltf::append_looks(std::size_t before, const host::MeshFile& one, bool mirrored) {
+    if (one.surface && mirrored) {
+        const host::MeshSurface turned = host::turned_over(*one.surface);
+        host::append(looks_, before, &turned, one.triangles.size());
+    } else {
+        host::append(looks_, before, one.surface.get(), one.triangles.size());
+    }
+}
+
 void Gltf::collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into) {
     host::MeshFile one = meshes()[mesh];
     if (one.triangles.empty()) return;
     if (!into.color) into.color = one.color;
+    into.remarks.insert(into.remarks.end(), one.remarks.begin(), one.remarks.end());
+    if (one.surface || !looks_.triangles.empty()) append_looks(into.triangles.size(), one, glm::determinant(dmat3(frame)) < 0);
     if (into.vertices.size() + one.vertices.size() > most_vertices)
         mesh_list_->at(mesh).refuse("with it colliders have more than 100000000 vertices, a mesh of several counted for each");
     map_mesh({dmat3(frame), dvec3(frame[3])}, one.vertices, one.triangles);
@@ -181,7 +196,9 @@ void Gltf::collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into
 }
 
 void Gltf::add_surface(const host::MeshFile& mesh, const Geometry& like) {
-    Body body{.name = like.name, .motion = Motion::fixed, .shape = Mesh{mesh.vertices, mesh.triangles}};
+    Mesh shape{mesh.vertices, mesh.triangles};
+    shape.form = form_of(mesh.surface);
+    Body body{.name = like.name, .motion = Motion::fixed, .shape = std::move(shape)};
     body.position = vec3(like.placed.position);
     body.orientation = single_quaternion(like.placed.turn);
     set_material(body, like.material);
@@ -204,14 +221,16 @@ void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
     else
         collect(mesh, frame, file);
     if (file.triangles.empty()) geometry.refuse("its mesh has no triangles");
+    if (!looks_.triangles.empty()) file.surface = host::shared_surface(std::exchange(looks_, {}));
     if (file.color) like.color = srgb_of(*file.color);
+    for (const std::string& look : file.remarks) geometry.note("", look);
     if (!hull && node.body == world_body && like.solid) {
         if (like.collides_as != 0) geometry.note("", "a static mesh's filter is left out; it meets everything");
         return add_surface(file, like);
     }
     if (hull) file.groups = {0};
     if (!hull) geometry.note("", "collides as the convex hull of each of its meshes");
-    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, !hull);
+    const MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, !hull, file.surface.get());
     if (!solid.flaw.empty()) geometry.refuse("its mesh has no convex hull: " + solid.flaw);
     if (!solid.remark.empty()) geometry.note("", solid.remark);
     for (std::size_t i = 0; i < solid.hulls.size(); ++i) {

@@ -113,7 +113,7 @@ void GlCanvas::Impl::draw_all(Pass pass, std::uint32_t quad_count) const {
             items = {0, draw.run < SEEN_RUNS ? scenery.bodies() : instances_of(run)};
             corners *= run.together;
         }
-        if (draw.state.pass != pass || items.count == 0) continue;
+        if (draw.state.pass != pass || !draw.is_for(by) || items.count == 0) continue;
         const Program& program = programs[program_of[i]];
         set_state(draw.state);
         gl.glUseProgram(program.name);
@@ -165,6 +165,7 @@ void GlCanvas::Impl::draw_picture(std::uint32_t quad_count) const {
 std::uint32_t GlCanvas::Impl::prepare(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 low,
                                       vec3 high) const {
     require_tables(tables, options, scale.by);
+    by = scale.by;
     const Frame frame = make_frame(camera, scale, options, low, high);
     std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));

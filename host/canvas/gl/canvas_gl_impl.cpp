@@ -28,7 +28,7 @@ CanvasOptions checked(CanvasOptions options, const GlContext& context) {
 }  // namespace
 
 GlCanvas::Impl::Impl(const ShapeInstances& shapes, const CanvasOptions& chosen)
-    : gl(context.gl()), options(checked(chosen, context)), scenery(shapes), draws(draws_of(options)) {
+    : gl(context.gl()), options(checked(chosen, context)), scenery(shapes), draws(draws_of(options, scenery.textured)) {
     const GlContext::Current current(context);
     make_state();
     make_buffers();
@@ -88,6 +88,7 @@ void GlCanvas::Impl::fill_scenery() {
     const std::vector<vec4> tints(scenery.records);
     fill(TINTS, tints.data(), std::span(tints).size_bytes());
     fill(DIRECTIONS, scenery.directions.data(), std::span(scenery.directions).size_bytes());
+    if (!scenery.texels.empty()) fill(TEXELS, scenery.texels.data(), std::span(scenery.texels).size_bytes());
     gl.glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(std::span(scenery.indices).size_bytes()),
                     scenery.indices.data(), GL_STATIC_DRAW);
 }

@@ -34,6 +34,7 @@ struct GlCanvas::Impl {
     std::vector<std::size_t> program_of;  // program index of each draw
     std::array<GLuint, LOOKS.size()> looks{};
     BodyTables tables;
+    mutable ColorBy by = ColorBy::momentum;  // of the last picture
     std::array<GLuint, BINDINGS> buffers{}, textures{};
     GLuint indices = 0;
     std::array<Target, 2> shadow_maps;  // sun, sky

@@ -62,6 +62,8 @@ VkDescriptorBufferInfo VulkanCanvas::Impl::table_of(std::uint32_t binding, Color
             return all_of(group_counts);
         case TINTS:
             return all_of(tints);
+        case TEXELS:
+            return all_of(texels.bytes() > 0 ? texels : instances);
         default:
             break;
     }

@@ -71,7 +71,7 @@ void VulkanCanvas::Impl::draw_all(Pass pass, std::uint32_t quad_count) {
         const Draw& draw = draws[i];
         const Run items = scenery.items(draw.items, tables, quad_count);
         const bool bodies = draw.items == Items::bodies;
-        if (draw.state.pass != pass || (bodies ? scenery.bodies() : items.count) == 0) continue;
+        if (draw.state.pass != pass || !draw.is_for(by) || (bodies ? scenery.bodies() : items.count) == 0) continue;
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof draw.pushed, &draw.pushed);
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
         if (bodies) {

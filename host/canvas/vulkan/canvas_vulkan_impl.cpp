@@ -21,7 +21,7 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
 }  // namespace
 
 VulkanCanvas::Impl::Impl(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
-    : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options)), objects(device) {
+    : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options, scenery.textured)), objects(device) {
     make_buffers();
     make_layout();
     make_samplers();
@@ -51,6 +51,8 @@ void VulkanCanvas::Impl::make_buffers() {
     instances = filled("canvas instances", scenery.instances);
     directions = filled("canvas directions", scenery.directions);
     indices = filled("canvas indices", scenery.indices);
+    if (!scenery.texels.empty()) texels = filled("canvas texels", scenery.texels);
+    scenery.texels = {};
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
     quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);

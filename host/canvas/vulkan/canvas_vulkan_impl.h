@@ -32,7 +32,7 @@ struct VulkanCanvas::Impl {
     std::array<VkPipeline, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // device copies of tables in host memory
-    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
+    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints, texels;
     VulkanObjectPool objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -45,6 +45,7 @@ struct VulkanCanvas::Impl {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence drawn = VK_NULL_HANDLE;
     bool pending = false;  // a picture is being drawn
+    ColorBy by = ColorBy::momentum;  // of the last picture
 
     void make_buffers();
     void make_layout();

@@ -6,8 +6,8 @@
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
     // From run.directions: per body the begin of its mesh (x), its vertex count (y), and whether it is scaled by
-    // radius and height (z); then the meshes: per vertex position (xyz) and the width of edges, normal and the distance to the
-    // edge.
+    // radius and height (z), has a surface (w); then the meshes: per vertex position (xyz) and the width of edges, normal and the
+    // distance to the edge; behind all vertices of a mesh their surface (textured.vert).
     vec4 directions[];
 };
 
