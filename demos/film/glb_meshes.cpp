@@ -114,7 +114,7 @@ void append(Triangles& to, const SharedShape& part, vec3 position, vec4 orientat
 }
 
 // Triangles of forms, put in order by their materials.
-class Surfaces {
+class SkinTriangles {
 public:
     void add(const MeshForm& form, vec3 position, const glm::quat& turn) {
         for (std::size_t i = 0; i < form.triangles.size(); ++i) {
@@ -185,12 +185,12 @@ Drawn MeshCollection::add(const Shape& shape, float plane_reach, vec3 middle) {
         return shared(made.key, made.scale, std::move(made.triangles));
     }
     if (const MeshForm* form = mesh_form_of(shape)) {
-        Surfaces made;
+        SkinTriangles made;
         made.add(*form, vec3(0), glm::quat(1, 0, 0, 0));
         return shared(fmt::format("mesh {}", static_cast<const void*>(form)), vec3(1), made.finish());
     }
     Triangles parts;
-    Surfaces skins;
+    SkinTriangles skins;
     std::string key = "compound";
     const auto& compound = std::get<Compound>(shape);
     for (const Skin& skin : compound.skins) {

@@ -153,7 +153,8 @@ void VulkanCanvas::Impl::record(const Camera& camera, const ColorScale& scale, c
     std::vector<OverlayQuad> laid = overlay_quads(options.width, options.height, options.legend, scale, caption);
     laid.resize(std::min<std::size_t>(laid.size(), MOST_QUADS));
     if (!laid.empty()) quads.write(laid.data(), laid.size() * sizeof(OverlayQuad));
-    write_set(scale.by);
+    by = scale.by;
+    write_set(by);
 
     begin();
     VkMemoryBarrier barrier{};

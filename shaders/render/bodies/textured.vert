@@ -18,7 +18,7 @@ invariant gl_Position;
 
 // Of 0xBBGGRR in sRGB, linear.
 vec3 unpacked(float levels) {
-    uint bits = uint(levels + 0.5);
+    uint bits = uint(levels);  // whole, below 2^24
     vec3 c = vec3(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u) / 255.0;
     return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, vec3(lessThan(c, vec3(0.04045))));
 }
