@@ -38,7 +38,7 @@ std::string quadrants(int side = 16) {
             image.rgba.insert(image.rgba.end(), color.begin(), color.end());
         }
     const tests::TemporaryFolder place;
-    host::write_png(image, place / "q.png");
+    host::write_png(place / "q.png", image);
     return place.read("q.png");
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("textures: far images are the mean of their pixels, and copies share t
         const std::uint8_t level = (i + i / 64) % 2 ? 255 : 0;
         board.rgba.insert(board.rgba.end(), {level, level, level, 255});
     }
-    host::write_png(board, place / "board.png");
+    host::write_png(place / "board.png", board);
     GltfParts parts;
     parts.image = place.read("board.png");
     put(place, "board.glb", glb(parts));
