@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 
 #include "host/canvas/srgb_levels.h"
 
@@ -62,6 +63,18 @@ Level halved(const Level& fine) {
     return coarse;
 }
 
+// The last table, since a canvas is made anew whenever bodies come.
+struct LastTable {
+    std::mutex lock;
+    std::vector<CanvasTexture> textures;
+    std::size_t most = 0;
+    std::vector<std::uint32_t> table;
+};
+LastTable& last_table() {
+    static LastTable last;
+    return last;
+}
+
 std::size_t texels_at(const SurfaceImage& image, int lost) {
     return static_cast<std::size_t>(std::max(1, image.width >> lost)) *
            static_cast<std::size_t>(std::max(1, image.height >> lost));
@@ -70,6 +83,10 @@ std::size_t texels_at(const SurfaceImage& image, int lost) {
 }  // namespace
 
 std::vector<std::uint32_t> texels_of(const std::vector<CanvasTexture>& textures, std::size_t most) {
+    if (textures.empty()) return {};
+    LastTable& last = last_table();
+    const std::lock_guard held(last.lock);
+    if (last.textures == textures && last.most == most) return last.table;
     std::vector<const SurfaceImage*> images;
     for (const CanvasTexture& one : textures)
         if (std::find(images.begin(), images.end(), one.image.get()) == images.end()) images.push_back(one.image.get());
@@ -104,6 +121,9 @@ std::vector<std::uint32_t> texels_of(const std::vector<CanvasTexture>& textures,
             std::copy(head.begin(), head.end(), table.begin() + static_cast<std::ptrdiff_t>(t * texture_words));
         }
     }
+    last.textures = textures;
+    last.most = most;
+    last.table = table;
     return table;
 }
 
