@@ -21,7 +21,11 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
 }  // namespace
 
 VulkanCanvas::Impl::Impl(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
-    : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options, scenery.textured)), objects(device) {
+    : device(std::move(opened)),
+      options(checked(chosen, *device)),
+      scenery(shapes),
+      draws(draws_of(options, scenery.textured)),
+      objects(device) {
     make_buffers();
     make_layout();
     make_samplers();

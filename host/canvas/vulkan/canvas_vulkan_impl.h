@@ -44,7 +44,7 @@ struct VulkanCanvas::Impl {
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence drawn = VK_NULL_HANDLE;
-    bool pending = false;  // a picture is being drawn
+    bool pending = false;            // a picture is being drawn
     ColorBy by = ColorBy::momentum;  // of the last picture
 
     void make_buffers();
