@@ -10,7 +10,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_FAILURE_STRINGS
 #define STBI_MAX_DIMENSIONS 8192  // most_image_side
-#include <stb/stb_image.h>
+#include <stb_image.h>
 
 namespace scree::host {
 

@@ -5,7 +5,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
-#include <stb/stb_truetype.h>
+#include <stb_truetype.h>
 #pragma GCC diagnostic pop
 
 #include <algorithm>

@@ -171,6 +171,38 @@ TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl
     CHECK(validated_device()->validation_messages().empty());
 }
 
+TEST_CASE("canvases: both draw the same images on surfaces", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    world.step(12);
+    ShapeInstances instances = demos::instances_of(world);
+    REQUIRE(!instances.meshes.empty());
+    Image checks{16, 16, {}};
+    for (int i = 0; i < 256; ++i) {
+        const bool bright = (i % 16 / 4 + i / 64) % 2 == 0;
+        for (const int level : {230, bright ? 230 : 30, bright ? 200 : 30, 255})
+            checks.rgba.push_back(static_cast<std::uint8_t>(level));
+    }
+    const std::vector<std::uint8_t> png = png_bytes(checks);
+    instances.textures = {{surface_image("checks", {png.begin(), png.end()}), Wrap::repeat, Wrap::mirror}};
+    const auto white = static_cast<float>(packed_levels(glm::vec3(1)));
+    for (SolidMesh& mesh : instances.meshes)
+        for (std::size_t k = 0; k < mesh.corners.size(); k += 2)
+            mesh.surface.emplace_back(3 * mesh.corners[k].x, 3 * mesh.corners[k].z, 0, white);
+    const CanvasOptions options = options_of(1, true, false);
+    const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+    const auto plain = make_vulkan_canvas(validated_device(), demos::instances_of(world), options);
+    View view;
+    view.scale.by = ColorBy::own;
+    const Image drawn = picture(*vulkan, world, view);
+    const Likeness both = likeness(drawn, picture(*gl, world, view));
+    CAPTURE(both.mean, both.strayed, both.misshapen);
+    CHECK(alike(both));
+    CHECK_FALSE(alike(likeness(drawn, picture(*plain, world, view))));
+    view.scale.by = ColorBy::momentum;
+    CHECK(picture(*vulkan, world, view).rgba == picture(*plain, world, view).rgba);
+    CHECK(validated_device()->validation_messages().empty());
+}
+
 TEST_CASE("canvases: both draw alike from far above, close by, and in every colour", "[canvas][gl]") {
     World world(heap(), {}, 1);
     world.step(12);
