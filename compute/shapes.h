@@ -19,6 +19,10 @@
 
 namespace scree {
 
+namespace host {
+struct MeshSurface;  // host/files/mesh_surface.h
+}
+
 using glm::vec3;
 using glm::vec4;
 
@@ -141,6 +145,8 @@ struct Mesh {
     float scale = 1;                         // scale of the file; applied to `vertices` already
     std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
     std::optional<Decomposition> decompose{};
+    // Base colours and images of the file, for pictures alone; null: the body's colour. Not saved with a scene.
+    std::shared_ptr<const host::MeshSurface> surface{};
 };
 // Terrain over a grid, solid below; for fixed and kinematic bodies. The grid is centred on the body's origin.
 struct HeightField {

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "compute/scene/meshes/mesh.h"
 #include "compute/scene/validation/body_validation.h"
 #include "compute/scene_file/file_grains.h"
 #include "compute/scene_file/import/folder.h"
 #include "compute/scene_file/import/import_scene.h"
+#include "host/files/file.h"
 #include "host/files/mesh_file.h"
 
 namespace scree {
@@ -33,7 +33,7 @@ public:
         const std::string pointer = "/bodies/" + std::to_string(index) + "/shape/mesh/file";
         const host::MeshFile& found = file(mesh->file, pointer);
         if (!body.color) {
-            mesh->form = form_of(found.surface);
+            mesh->surface = found.surface;
             if (told_.insert(mesh->file).second)
                 for (const std::string& remark : found.remarks) remarks_.push_back(pointer + ": " + remark);
         }
@@ -41,7 +41,7 @@ public:
         mesh->triangles = found.triangles;
         for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
     }
-    // What is left out of how meshes look.
+    // What of their base colours and images is left out.
     const std::vector<std::string>& remarks() const { return remarks_; }
     void read(Grains& grains, const std::string& place) {
         for (std::size_t i = 0; i < grains.shapes.size(); ++i) {
@@ -56,7 +56,7 @@ public:
 
 private:
     const host::MeshFile& file(const std::string& name, const std::string& pointer) {
-        if (!allow_outside_ && !imports::is_inside(imports::canonical_or_itself(home_ / name), home_))
+        if (!allow_outside_ && !host::is_inside(imports::canonical_or_itself(home_ / name), home_))
             throw SceneError(pointer, "\"" + name + "\" lies outside of the scene file's folder, " + home_.string() +
                                           "; move it there, or allow it (--allow-outside, in Python allow_outside=True)");
         try {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "compute/scene/meshes/mesh.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/load_scene.h"
@@ -73,7 +72,7 @@ void read_mesh_file(Body& body, const Place& place) {
         mesh->vertices = std::move(read.vertices);
         mesh->triangles = std::move(read.triangles);
         for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
-        if (!body.color) mesh->form = form_of(std::move(read.surface));
+        if (!body.color) mesh->surface = std::move(read.surface);
     } catch (const host::FileError& error) {
         json_reading::refuse(place / "shape" / "mesh" / "file", error.what());
     }

@@ -147,14 +147,8 @@ vec3 map_color(ColorMap map, float t) {
     return glm::clamp(from_oklab(glm::mix(a, b, x - static_cast<float>(i))), 0.0f, 1.0f);
 }
 
-// IEC 61966-2-1.
 int srgb_byte(float linear) {
-    const float x = std::clamp(linear, 0.0f, 1.0f);
-    const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-    return static_cast<int>(std::lround(encoded * 255.0f));
-}
-float linear_from_srgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return static_cast<int>(std::lround(srgb_from_linear(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
 }
 
 vec3 linear_from_srgb(vec3 encoded) {

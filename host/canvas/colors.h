@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/files/srgb.h"
+
 namespace scree::host {
 
 enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
@@ -62,9 +64,8 @@ float scale_place(const ColorScale& scale, float value);
 
 // The colour of the map at t in 0..1, linear RGB.
 glm::vec3 map_color(ColorMap map, float t);
-// sRGB transfer function of one channel: linear 0..1 to a byte 0..255, and encoded 0..1 to linear.
+// Linear 0..1 to a byte 0..255 of sRGB, and encoded 0..1 to linear.
 int srgb_byte(float linear);
-float linear_from_srgb(float encoded);
 glm::vec3 linear_from_srgb(glm::vec3 encoded);
 
 // Tick values from low to high, at most `most`: multiples of 1, 2 or 5 times a power of ten; powers of ten on a

@@ -1,4 +1,4 @@
-// Images of surfaces as a table that shaders filter, so that pictures are the same on every device.
+// Images of surfaces as a table that shaders filter, so that samplers of devices make no difference.
 #pragma once
 
 #include <cstddef>

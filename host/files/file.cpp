@@ -1,6 +1,7 @@
 // File input and atomic file output.
 #include "host/files/file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -63,6 +64,11 @@ void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
 std::filesystem::path cache_folder() {
     const std::filesystem::path base = cache_home();
     return base.empty() ? base : base / "scree";
+}
+
+bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return end == folder.end() && rest != file.end();
 }
 
 std::string read_text(const std::filesystem::path& path) {

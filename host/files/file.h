@@ -22,6 +22,9 @@ std::string read_text(const std::filesystem::path& path);
 // never begin.
 std::string read_regular(const std::filesystem::path& path, std::uintmax_t most);
 
+// Whether a file lies in a folder or below, both canonical.
+bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 // Atomic write: to a temporary file in the same folder, then rename, so that the file has either its old or its new
 // content. Paths that are no regular files (/dev/stdout, a pipe) are written in place. Throws FileError and removes
 // the temporary file.

@@ -396,8 +396,7 @@ std::filesystem::path buffer_file(const std::string& name, void* folder) {
     std::error_code failed;
     const std::filesystem::path within = std::filesystem::weakly_canonical(*static_cast<std::filesystem::path*>(folder), failed);
     const std::filesystem::path file = std::filesystem::weakly_canonical(name, failed);
-    const auto [end, rest] = std::mismatch(within.begin(), within.end(), file.begin(), file.end());
-    return end == within.end() && rest != file.end() ? file : std::filesystem::path();
+    return is_inside(file, within) ? file : std::filesystem::path();
 }
 bool buffer_exists(const std::string& name, void* folder) {
     std::error_code failed;

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <tuple>
 
+#include "host/files/srgb.h"
+
 namespace scree::host {
 
 namespace {
@@ -34,13 +36,8 @@ InUse<MeshSurface>& surfaces() {
     return all;
 }
 
-float level_of(float light) {
-    const float x = std::clamp(light, 0.0f, 1.0f);
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-}
 float light_of(std::uint32_t level) {
-    const float x = static_cast<float>(level) / 255;
-    return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+    return linear_from_srgb(static_cast<float>(level) / 255);
 }
 
 constexpr std::uintmax_t most_image_bytes = std::uintmax_t{64} << 20;
@@ -156,7 +153,8 @@ MeshSurface turned_over(const MeshSurface& surface) {
 
 std::uint32_t packed_levels(glm::vec3 linear) {
     std::uint32_t levels = 0;
-    for (int k = 2; k >= 0; --k) levels = levels << 8 | static_cast<std::uint32_t>(std::lround(255 * level_of(linear[k])));
+    for (int k = 2; k >= 0; --k)
+        levels = levels << 8 | static_cast<std::uint32_t>(std::lround(255 * srgb_from_linear(std::clamp(linear[k], 0.0f, 1.0f))));
     return levels;
 }
 glm::vec3 linear_of_levels(std::uint32_t levels) {
@@ -167,8 +165,7 @@ std::string bytes_beside(const std::filesystem::path& folder, const std::string&
     std::error_code failed;
     const std::filesystem::path within = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, failed);
     const std::filesystem::path file = std::filesystem::weakly_canonical(within / name, failed);
-    const auto [end, rest] = std::mismatch(within.begin(), within.end(), file.begin(), file.end());
-    if (failed || end != within.end() || rest == file.end()) throw FileError("it lies outside of the folder of its mesh");
+    if (failed || !is_inside(file, within)) throw FileError("it lies outside of the folder of its mesh");
     return read_regular(file, most);
 }
 

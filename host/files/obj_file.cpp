@@ -144,9 +144,9 @@ private:
     }
 
     void use(std::string name) {
-        const auto known = std::find(used_.begin(), used_.end(), name);
-        text_ += "s " + std::to_string(known - used_.begin()) + "\n";
-        if (known == used_.end()) used_.push_back(name);
+        const auto [number, fresh] = numbers_.try_emplace(name, used_.size());
+        text_ += "s " + std::to_string(number->second) + "\n";
+        if (fresh) used_.push_back(name);
         material_ = std::move(name);
     }
 
@@ -194,6 +194,7 @@ private:
     std::vector<std::string> libraries_;
     std::map<std::string, std::string> materials_;  // of the first face of each group
     std::vector<std::string> used_{""};
+    std::map<std::string, std::size_t> numbers_{{"", 0}};  // of used_
     long long vertices_ = 0, coordinates_ = 0;
     std::vector<std::pair<long long, std::size_t>> ahead_;  // indices of vertices that come later, with their lines
 };

@@ -15,6 +15,7 @@
 
 #include "host/files/file.h"
 #include "host/files/partial_file.h"
+#include "host/files/srgb.h"
 #include "host/pictures/png_encoder.h"
 #include "host/system/files.h"
 
@@ -63,9 +64,7 @@ const std::vector<std::uint16_t>& levels_of_halves() {
         for (std::size_t i = 0; i < made.size(); ++i) {
             const auto half = static_cast<std::uint16_t>(i);
             const float x = std::clamp(float_of_half(half), 0.0f, 1.0f);  // infinity and NaN become 1
-            // IEC 61966-2-1.
-            const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-            made[i] = static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
+            made[i] = static_cast<std::uint16_t>(std::lround(srgb_from_linear(x) * 65535.0f));
         }
         return made;
     }();

@@ -7,15 +7,14 @@
 
 #include "host/canvas/colors.h"
 #include "host/canvas/srgb_levels.h"
+#include "host/files/srgb.h"
 #include "host/pictures/image.h"
 
 namespace scree::host {
 namespace {
 
 std::uint16_t word_of_light(float light) {
-    const float mean = std::clamp(light, 0.0f, 1.0f);
-    const float encoded = mean <= 0.0031308f ? 12.92f * mean : 1.055f * std::pow(mean, 1.0f / 2.4f) - 0.055f;
-    return static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
+    return static_cast<std::uint16_t>(std::lround(srgb_from_linear(std::clamp(light, 0.0f, 1.0f)) * 65535.0f));
 }
 
 void set_light(Image& image, std::size_t channel, float light) {

@@ -55,7 +55,7 @@ struct GltfParts {
     std::string image_json = R"({"bufferView": 3, "mimeType": "image/png"})";
     std::string material = R"({"name": "Glaze", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})";
     std::string attributes = R"({"POSITION": 0, "TEXCOORD_0": 1})";
-    std::string sampler = "{}";
+    std::string sampler = "{}", node;
     float most = 1;
 };
 
@@ -65,18 +65,23 @@ std::string glb(const GltfParts& parts) {
     std::string binary = bytes_of(plate.corners.data(), 48) + bytes_of(at, 32) + bytes_of(plate.indices.data(), 12);
     binary += parts.image;
     binary.append((4 - binary.size() % 4) % 4, '\0');
-    std::string json =
-        R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [
+    const std::size_t colors = binary.size();
+    for (int k = 0; k < 4; ++k) binary += std::string("\x02\xA0\x02\xFF", 4);
+    std::string json = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0)" + parts.node +
+                       R"(}], "meshes": [{"primitives": [
             {"attributes": )" +
-        parts.attributes + R"(, "indices": 2, "material": 0}]}], "materials": [)" + parts.material +
-        R"(], "textures": [{"source": 0, "sampler": 0}], "samplers": [)" + parts.sampler + R"(], "images": [)" +
-        parts.image_json + R"(], "buffers": [{"byteLength": )" + std::to_string(binary.size()) + R"(}], "bufferViews": [
+                       parts.attributes + R"(, "indices": 2, "material": 0}]}], "materials": [)" + parts.material +
+                       R"(], "textures": [{"source": 0, "sampler": 0}], "samplers": [)" + parts.sampler + R"(], "images": [)" +
+                       parts.image_json + R"(], "buffers": [{"byteLength": )" + std::to_string(binary.size()) +
+                       R"(}], "bufferViews": [
             {"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32},
             {"buffer": 0, "byteOffset": 80, "byteLength": 12}, {"buffer": 0, "byteOffset": 92, "byteLength": )" +
-        std::to_string(std::max<std::size_t>(parts.image.size(), 1)) + R"(}], "accessors": [
+                       std::to_string(std::max<std::size_t>(parts.image.size(), 1)) + R"(}, {"buffer": 0, "byteOffset": )" +
+                       std::to_string(colors) + R"(, "byteLength": 16}], "accessors": [
             {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
             {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
-            {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]})";
+            {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"},
+            {"bufferView": 4, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4"}]})";
     json.append((4 - json.size() % 4) % 4, ' ');
     return "glTF" + word(2) + word(12 + 8 + json.size() + 8 + binary.size()) + word(json.size()) + "JSON" + json +
            word(binary.size()) + std::string("BIN\0", 4) + binary;
@@ -165,6 +170,42 @@ TEST_CASE("textures: glTF and OBJ files are drawn with their images, where their
     CHECK(wrapped("{}") == "rrrr");
     CHECK(wrapped(R"({"wrapS": 33648, "wrapT": 33648})") == "rgby");
     CHECK(wrapped(R"({"wrapS": 33071, "wrapT": 33071})") == "rgby");
+}
+
+TEST_CASE("textures: coordinates are moved, colours are of vertices, mirrored meshes keep both", "[canvas][gl]") {
+    const tests::TemporaryFolder place;
+    const auto drawn = [&](const GltfParts& parts) {
+        put(place, "plate.glb", glb(parts));
+        std::vector<std::string> notes;
+        const std::string seen = places_of(picture_of(scene_of(place, "plate.glb", &notes).scene));
+        CHECK(told(notes).empty());
+        return seen;
+    };
+    const auto moved = [&](const std::string& how) {
+        GltfParts parts;
+        parts.material =
+            R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": )" + how +
+            "}}}}";
+        return drawn(parts);
+    };
+    CHECK(moved("{}") == "rgby");
+    CHECK(moved(R"({"offset": [0.5, 0]})") == "gryb");
+    // As the extension's example: u' = v, v' = 1 - u.
+    CHECK(moved(R"({"rotation": 1.5707963, "offset": [0, 1]})") == "bryg");
+    CHECK(moved(R"({"scale": [0.5, 0.5]})") == "rrrr");
+    CHECK(moved(R"({"scale": [0.5, 0.5], "offset": [0.5, 0.5]})") == "yyyy");
+    GltfParts parts;
+    parts.node = R"(, "scale": [-1, 1, 1])";
+    CHECK(drawn(parts) == "gryb");
+    parts = {};
+    parts.material = "{}";
+    parts.attributes = R"({"POSITION": 0, "COLOR_0": 3})";
+    CHECK(drawn(parts) == "gggg");
+
+    put(place, "plate.obj", plate_obj);
+    put(place, "four colours.png", quadrants());
+    put(place, "plate.mtl", "newmtl Glaze\nmap_Kd -blendu on -s 0.5 0.5 1 -o 0.5 0 0 four colours.png\n");
+    CHECK(places_of(picture_of(scene_of(place, "plate.obj").scene)) == "yyyy");
 }
 
 TEST_CASE("textures: far images are the mean of their pixels, and copies share them", "[canvas][gl]") {

@@ -27,7 +27,7 @@ class Scree(ConanFile):
 
     def requirements(self):
         for one in ("onetbb/2021.12.0", "glm/1.0.1", "xxhash/0.8.2", "qhull/8.0.2", "tinyxml2/10.0.0", "tinyobjloader/1.0.7",
-                    "tinygltf/2.9.0", "nlohmann_json/3.11.3", "stb/cci.20240531"):
+                    "tinygltf/2.9.0", "nlohmann_json/3.11.3", "stb/cci.20240213"):
             self.requires(one)
 
     def build_requirements(self):

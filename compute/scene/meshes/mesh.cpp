@@ -253,17 +253,6 @@ std::string oddities(const MeshForm& form) {
     return text;
 }
 
-std::shared_ptr<const host::MeshSurface> surface_of(const Mesh& mesh) {
-    return mesh.form ? mesh.form->surface : nullptr;
-}
-
-std::shared_ptr<const MeshForm> form_of(std::shared_ptr<const host::MeshSurface> surface) {
-    if (!surface) return nullptr;
-    auto form = std::make_shared<MeshForm>();
-    form->surface = std::move(surface);
-    return form;
-}
-
 const MeshForm* mesh_form_of(const Shape& shape) {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->form.get();
     if (const auto* field = std::get_if<HeightField>(&shape)) return field->form.get();

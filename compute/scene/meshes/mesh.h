@@ -15,10 +15,6 @@
 
 namespace scree {
 
-namespace host {
-struct MeshSurface;
-}
-
 struct MeshForm {
     struct Triangle {
         std::array<glm::vec3, 3> corners;  // m, from `middle`
@@ -34,10 +30,8 @@ struct MeshForm {
     std::vector<Triangle> triangles;
     // Of each: 3 * t + k, if its first corner is corner k of the mesh's triangle t.
     std::vector<std::uint32_t> origins;
-    // How the mesh's triangles look, for pictures alone; null: as their body. A mesh from a file has it before the check, in a
-    // form that has nothing else.
-    std::shared_ptr<const host::MeshSurface> surface;
-    float reach = 0;  // distance of the farthest vertex from the body's origin, m
+    std::shared_ptr<const host::MeshSurface> surface;  // the mesh's
+    float reach = 0;                                   // distance of the farthest vertex from the body's origin, m
 
     std::size_t dropped = 0;    // degenerate or repeated triangles
     std::size_t open = 0;       // edges of a single triangle
@@ -62,10 +56,6 @@ MeshForm mesh_form(const HeightField& field);
 // what has none.
 std::vector<glm::uvec3> welded_triangles(std::span<const glm::vec3> vertices, std::span<const glm::uvec3> triangles,
                                          std::vector<std::uint32_t>* origins = nullptr);
-// Null if it has none.
-std::shared_ptr<const host::MeshSurface> surface_of(const Mesh& mesh);
-// A form that has a surface alone; null for none.
-std::shared_ptr<const MeshForm> form_of(std::shared_ptr<const host::MeshSurface> surface);
 
 // Of a checked mesh or height field; null for other shapes.
 const MeshForm* mesh_form_of(const Shape& shape);

@@ -202,13 +202,13 @@ const CheckedShapes::MadeHull& CheckedShapes::hull_of(const std::vector<vec3>& p
 }
 
 static bool same_surface(const Mesh& a, const Mesh& b) {
-    return surface_of(a) == surface_of(b) && a.vertices.size() == b.vertices.size() &&
+    return a.surface == b.surface && a.vertices.size() == b.vertices.size() &&
            std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(vec3)) == 0 && a.triangles == b.triangles;
 }
 
 static std::shared_ptr<const MeshForm> made_form(const Mesh& mesh) {
     MeshForm form = mesh_form(mesh.vertices, mesh.triangles);
-    form.surface = surface_of(mesh);
+    form.surface = mesh.surface;
     return std::make_shared<const MeshForm>(std::move(form));
 }
 
@@ -216,7 +216,7 @@ std::shared_ptr<const Mesh> CheckedShapes::skin(const std::shared_ptr<const Mesh
     const auto equal =
         std::ranges::find_if(skins, [&](const auto& other) { return other == mesh || same_surface(*other, *mesh); });
     if (equal != skins.end()) return *equal;
-    if (mesh->form && !mesh->form->triangles.empty()) return skins.emplace_back(mesh);
+    if (mesh->form) return skins.emplace_back(mesh);
     auto made = std::make_shared<Mesh>(*mesh);
     made->form = made_form(*mesh);
     return skins.emplace_back(std::move(made));

@@ -50,7 +50,7 @@ std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices
     if (surface != nullptr) {
         host::MeshSurface own = host::part_of(*surface, first, end);
         colorful = !host::is_plain(own);
-        skin.form = form_of(host::shared_surface(std::move(own)));
+        skin.surface = host::shared_surface(std::move(own));
     }
     const auto as_hull = [&]() -> std::shared_ptr<const Compound> {
         if (!colorful) return nullptr;
@@ -69,11 +69,6 @@ std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices
 }
 
 }  // namespace
-
-bool is_inside(const fs::path& file, const fs::path& folder) {
-    const auto [end, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    return end == folder.end() && at != file.end();
-}
 
 fs::path canonical_or_itself(const fs::path& path) {
     std::error_code failed;
@@ -150,8 +145,8 @@ fs::path Folder::resolved(const Origin& at, const std::string& name) {
                            "=DIR, in Python with packages={\"" + in + "\": \"DIR\"}");
     }
     const fs::path found = canonical_or_itself(path);
-    bool inside = allow_outside_ || is_inside(found, folder_);
-    for (const auto& [package_name, folder] : packages_) inside = inside || is_inside(found, folder);
+    bool inside = allow_outside_ || host::is_inside(found, folder_);
+    for (const auto& [package_name, folder] : packages_) inside = inside || host::is_inside(found, folder);
     if (!inside)
         refuse(at,
                "\"" + name +
@@ -209,7 +204,7 @@ std::shared_ptr<const MeshSolid> Folder::mesh(const Origin& at, const std::strin
         if (!groups || file.groups.empty()) file.groups = {0};
         if (file.groups.size() > most_groups) refuse(at, "\"" + name + "\" has more than 10000 groups");
         MeshSolid solid = mesh_solid(file.vertices, file.triangles, file.groups, parts, file.surface.get());
-        solid.lost_looks = std::move(file.remarks);
+        solid.surface_remarks = std::move(file.remarks);
         if (groups) give_colors(path, file, solid);
         made = std::make_shared<MeshSolid>(std::move(solid));
     } catch (const host::FileError& error) {

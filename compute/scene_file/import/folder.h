@@ -35,7 +35,7 @@ struct MeshSolid {
     std::vector<std::size_t> groups;                     // of the mesh, that the hulls are of
     std::vector<std::optional<vec3>> colors;             // of the hulls, sRGB; of folder.mesh() with groups alone
     std::string lost_colors;                             // why some are not known
-    std::vector<std::string> lost_looks;                 // what is left out of how it looks
+    std::vector<std::string> surface_remarks;            // what of its base colours and images is left out, and why
     std::string flaw;                                    // why there is none
     SolidMass mass;        // of what the triangles enclose, density 1; of the hulls if they enclose nothing
     bool encloses = true;  // whether the triangles do
@@ -43,8 +43,6 @@ struct MeshSolid {
 
 // With symbolic links followed, as far as it exists.
 std::filesystem::path canonical_or_itself(const std::filesystem::path& path);
-// Whether a file lies in a folder or below, both canonical.
-bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 class Folder {
 public:
@@ -72,8 +70,8 @@ private:
     std::uintmax_t read_ = 0;  // bytes so far
 };
 
-// Of vertices and triangles that are in memory.
-// A hull whose mesh has several colours or an image becomes a convex part, whose skin is the mesh.
+// Of vertices and triangles that are in memory. A hull whose mesh has several colours or an image becomes a convex part, whose
+// skin is the mesh.
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
                      const std::vector<std::size_t>& groups, bool parts = false, const host::MeshSurface* surface = nullptr);
 

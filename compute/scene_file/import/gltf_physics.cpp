@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/meshes/mesh.h"
 #include "compute/scene_file/import/gltf_joints.h"
 #include "compute/scene_file/import/gltf_materials.h"
 #include "compute/scene_file/import/gltf_shapes.h"
@@ -55,7 +54,7 @@ private:
     void add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like);
     void add_surface(const host::MeshFile& mesh, const Geometry& like);
     void collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into, int depth);
-    void append_looks(std::size_t before, const host::MeshFile& one, bool mirrored);
+    void append_surface(std::size_t before, const host::MeshFile& one, bool mirrored);
     void collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& into);
     const std::vector<host::MeshFile>& meshes();
     std::size_t child_of(const GltfValue& list, std::size_t i) const;
@@ -73,7 +72,7 @@ private:
     std::vector<std::pair<std::size_t, GltfValue>> joints_;   // by node
     std::vector<std::pair<std::size_t, GltfValue>> motions_;  // by body
     std::vector<glm::dmat4> body_nodes_{glm::dmat4(1)};       // their nodes' transforms
-    host::MeshSurface looks_;                                 // of what is collected
+    host::MeshSurface surface_;                               // of what is collected
     std::vector<Body> surfaces_;                              // static triangle meshes
     Model model_;
 };
@@ -152,12 +151,12 @@ void Gltf::add_shape(GltfValue shape, const glm::dmat4& frame, Geometry like, Mo
     }
 }
 
-void Gltf::append_looks(std::size_t before, const host::MeshFile& one, bool mirrored) {
+void Gltf::append_surface(std::size_t before, const host::MeshFile& one, bool mirrored) {
     if (one.surface && mirrored) {
         const host::MeshSurface turned = host::turned_over(*one.surface);
-        host::append(looks_, before, &turned, one.triangles.size());
+        host::append(surface_, before, &turned, one.triangles.size());
     } else {
-        host::append(looks_, before, one.surface.get(), one.triangles.size());
+        host::append(surface_, before, one.surface.get(), one.triangles.size());
     }
 }
 
@@ -166,7 +165,8 @@ void Gltf::collect(std::size_t mesh, const glm::dmat4& frame, host::MeshFile& in
     if (one.triangles.empty()) return;
     if (!into.color) into.color = one.color;
     into.remarks.insert(into.remarks.end(), one.remarks.begin(), one.remarks.end());
-    if (one.surface || !looks_.triangles.empty()) append_looks(into.triangles.size(), one, glm::determinant(dmat3(frame)) < 0);
+    if (one.surface || !surface_.triangles.empty())
+        append_surface(into.triangles.size(), one, glm::determinant(dmat3(frame)) < 0);
     if (into.vertices.size() + one.vertices.size() > most_vertices)
         mesh_list_->at(mesh).refuse("with it colliders have more than 100000000 vertices, a mesh of several counted for each");
     map_mesh({dmat3(frame), dvec3(frame[3])}, one.vertices, one.triangles);
@@ -197,7 +197,7 @@ void Gltf::collect(GltfValue node, const glm::dmat4& frame, host::MeshFile& into
 
 void Gltf::add_surface(const host::MeshFile& mesh, const Geometry& like) {
     Mesh shape{mesh.vertices, mesh.triangles};
-    shape.form = form_of(mesh.surface);
+    shape.surface = mesh.surface;
     Body body{.name = like.name, .motion = Motion::fixed, .shape = std::move(shape)};
     body.position = vec3(like.placed.position);
     body.orientation = single_quaternion(like.placed.turn);
@@ -221,9 +221,9 @@ void Gltf::add_mesh(GltfValue& geometry, const GltfNode& node, Geometry like) {
     else
         collect(mesh, frame, file);
     if (file.triangles.empty()) geometry.refuse("its mesh has no triangles");
-    if (!looks_.triangles.empty()) file.surface = host::shared_surface(std::exchange(looks_, {}));
+    if (!surface_.triangles.empty()) file.surface = host::shared_surface(std::exchange(surface_, {}));
     if (file.color) like.color = srgb_of(*file.color);
-    for (const std::string& look : file.remarks) geometry.note("", look);
+    for (const std::string& remark : file.remarks) geometry.note("", remark);
     if (!hull && node.body == world_body && like.solid) {
         if (like.collides_as != 0) geometry.note("", "a static mesh's filter is left out; it meets everything");
         return add_surface(file, like);

@@ -21,7 +21,7 @@ SceneDocument scene_of_mesh(const std::string& name, Folder& folder, const Impor
     constexpr double density = 1000;  // as of a scene's bodies
     body.mass = scaled_mass(solid->mass, density);
     if (!solid->lost_colors.empty()) notes.add(at, "", "has no colours: " + solid->lost_colors);
-    for (const std::string& look : solid->lost_looks) notes.add(at, "", look);
+    for (const std::string& remark : solid->surface_remarks) notes.add(at, "", remark);
     for (std::size_t i = 0; i < solid->hulls.size(); ++i) {
         Geometry one;
         one.origin = at;

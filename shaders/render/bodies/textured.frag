@@ -1,7 +1,7 @@
 // Meshes with surfaces of their own, and the other solids beside them: shading.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/render/light.h"
+#include "shaders/render/bodies/solid_tone.h"
 
 layout(std430, set = 0, binding = 24) readonly buffer TexelTable {
     uint texels[];  // host/canvas/texels.h
@@ -70,17 +70,7 @@ void main() {
     if (texture_number > -0.5) {
         shown *= texture_at(uint(texture_number + 0.5), at, across_pixel, down_pixel);
     } else if (texture_number < -1.5) {
-        // As solid.frag.
-        vec2 halves = clamp(own.xz / 0.02, -1.0, 1.0);
-        float tone = 0.9 + 0.1 * halves.x * halves.y + 0.05 * local.x * (own.x == 0.0 && own.z == 0.0 ? 1.0 : 0.0);
-        if (edge.y > 0.0) {
-            float pixel = pixel_at(point);
-            float bevel = max(edge.y, 1.2 * pixel), bright = clamp(edge.y / (1.8 * pixel), 0.0, 1.0);
-            float lift = clamp(1.0 - edge.x / bevel, 0.0, 1.0);
-            tone *= 1.0 + 0.22 * bright * bright * lift * lift;
-            tone *= 1.0 - seam_at(edge.x, pixel, 14.0 * edge.y) * (1.0 - 0.5 * bright);
-        }
-        shown *= tone;
+        shown *= tone_of(own, local, edge, point);
     }
     vec3 shaded = lit(shown, point, turned(turn, local), sight_to(point), 0.7);
     out_color = finished(hazed(shaded, length(point)));
