@@ -296,11 +296,12 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     compiler.set_material(whole, body);
     const auto* compound = std::get_if<Compound>(&body.shape);
     const Material own = material_of(body);
+    const float curvature = SceneCompiler::curvature_of(body);
     TableRanges changed{{Table::properties, row, 1}};
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
         one.motion = static_cast<physics::uint>(body.motion) | physics::MOTION_OF_PART;
-        compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own);
+        compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own, curvature);
     }
     state_.note_content(row, 1);
     state_.note_content(first, count);

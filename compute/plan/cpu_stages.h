@@ -69,6 +69,9 @@ SCREE_STAGE(relax_joints);  // pass: 1 in the last substep
 // fields.cpp
 SCREE_STAGE(apply_fields);
 
+// cohesion.cpp
+SCREE_STAGE(apply_cohesion);
+
 // vehicles.cpp
 SCREE_STAGE(drive_vehicles);
 

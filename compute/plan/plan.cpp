@@ -123,6 +123,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add("warm_start_contacts");
     s.add("prepare_contacts");
     if (features.joints) s.add("prepare_joints");
+    if (features.cohesion) s.add("apply_cohesion");
     // solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t first = substep == 1 ? physics::PASS_FIRST : 0, last = substep == substeps ? physics::PASS_LAST : 0;

@@ -149,6 +149,8 @@ void State::note_content(std::span<const physics::BodyProperties> rows) {
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
         found.tyres |= physics::tyre_of(row) != 0;
+        const physics::uint surface = physics::surface_of(row);
+        found.cohesion |= surface != 0 && surfaces[surface - 1].cohesion > 0;
         found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
         found.convex |= physics::is_general_convex(row.shape);
@@ -179,7 +181,7 @@ void State::index_surfaces() {
         if (spare.surface_users[i] == 0)
             spare.surfaces.push_back(i);
         else
-            shape_places.surfaces[std::bit_cast<std::array<physics::uint, 8>>(surfaces[i])] = i;
+            shape_places.surfaces[std::bit_cast<std::array<physics::uint, 12>>(surfaces[i])] = i;
 }
 
 void State::make(Table table) {
