@@ -12,6 +12,7 @@
 #ifndef SCREE_PHYSICS_COHESION_H
 #define SCREE_PHYSICS_COHESION_H
 
+#include "shaders/physics/body/body_scale.h"
 #include "shaders/physics/contact/contact_solver.h"
 #include "shaders/physics/contact/material.h"
 

@@ -1,0 +1,35 @@
+// Cohesion on a device: the bits of the CPU after every stage.
+#include <catch2/catch.hpp>
+
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
+#include "compute/world.h"
+#include "tests/stages/watched_device.h"
+#include "tests/world/coarse.h"
+#include "tests/world/museum.h"
+#include "tests/world/sticky.h"
+
+using namespace scree;
+
+TEST_CASE("every stage gives the same bits on both processors where bodies of all kinds are cohesive",
+          "[vulkan][process:kinds]") {
+    const Watched watched;
+    for (const Scene& scene : {tests::sticky(tests::belts(40), 200), tests::sticky(tests::museum(30), 500)}) {
+        const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 60);
+        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                     << result.detail);
+        REQUIRE(result.equal);
+    }
+}
+
+TEST_CASE("a device goes on from a checkpoint of the CPU with its bits while bodies attract each other",
+          "[vulkan][process:kinds]") {
+    const Watched watched;
+    const Scene scene = tests::sticky(tests::belts(30), 200);
+    World cpu(scene, tests::coarse(), 1), there(scene, tests::coarse(), make_device_runner(watched.device));
+    cpu.step(25);
+    there.restore(cpu.save());
+    cpu.step(25);
+    there.step(25);
+    CHECK(there.state_hash() == cpu.state_hash());
+}
