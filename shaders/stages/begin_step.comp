@@ -20,7 +20,9 @@ void main() {
             WRITE(forces, i, gravity_forces(body, parameters_of(body.owner)));
         else
             WRITE(forces, i, gravity_forces(body, PARAMETERS));
-        if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = roused(WORD(sleep_states, i), PARAMETERS.sleep_steps);
+        // Without a branch on parameters alone: lavapipe would compile the shader anew in each step, for its parameters.
+        uint state = WORD(sleep_states, i);
+        WORD(sleep_states, i) = choose(PARAMETERS.wake_all != 0u, roused(state, PARAMETERS.sleep_steps), state);
     }
     // Rows by different threads: a software device repeats what a single thread does for every vector of threads.
     Counts empty = emptied(COUNTS, PARAMETERS);
