@@ -38,7 +38,8 @@ physics::Wrench attraction_in(const State& state, std::size_t body, std::uint32_
     const physics::Constraint& c = state.constraints[i];
     const bool of_parts = physics::is_part(state.properties[contact.a]) || physics::is_part(state.properties[contact.b]);
     const float part = of_parts ? part_of_pair(state, c, cohesion.range, body) : 1;
-    return physics::attraction(c, state.impulses[i], cohesion, part, side % 2);
+    return physics::attraction(c, state.impulses[i], cohesion, part, side % 2, state.velocities[c.a], state.velocities[c.b],
+                               state.fixed());
 }
 
 }  // namespace

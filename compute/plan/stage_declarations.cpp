@@ -190,7 +190,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"apply_cohesion", DispatchDomain::bodies, apply_cohesion,
         {{counts}, {properties, A::bodies}, {slot_ends, A::movers}, {slot_sides, A::slots}, {contacts, A::contacts, 1}, {surfaces}, {impulses, A::solver_contacts},
-         {constraints, A::solver_contacts}, {masses, A::movers}, {forces, A::movers}},
+         {constraints, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces, A::movers}},
         {some_only({forces, A::movers})}, physics::FEATURE_GHOSTS});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses}, {actions, A::actions}},

@@ -47,7 +47,7 @@ Wrench attraction_in(uint side) {
     Constraint c = READ_GROUPED(constraints, contact);
     float part = 1.0f;
     if (is_part(ta) || is_part(tb)) part = part_of_pair(c, cohesion.range);
-    return attraction(c, impulse, cohesion, part, side & 1u);
+    return attraction(c, impulse, cohesion, part, side & 1u, READ(velocities, c.a), READ(velocities, c.b), PARAMETERS);
 }
 
 void main() {
