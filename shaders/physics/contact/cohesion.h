@@ -8,8 +8,9 @@
 //
 // The force is that of the two bodies: the contacts that they have with each other share it, and so do the points of a contact.
 // It follows once a step from the gaps as the step begins, and acts like gravity through the step, in the direction of the middle
-// of the step: in that of its beginning, two balls that turn about each other would turn faster and faster. So passes over
-// contacts do not know of it, and action and reaction come from the same numbers.
+// of the step: in that of its beginning, two balls that turn about each other would turn faster and faster. (Impulses of contacts
+// have the direction in which a substep begins; so has this force, in the mean.) So passes over contacts do not know of it, and
+// action and reaction come from the same numbers.
 #ifndef SCREE_PHYSICS_COHESION_H
 #define SCREE_PHYSICS_COHESION_H
 
@@ -22,10 +23,6 @@ LAWS_BEGIN
 // Up to which gap bodies attract each other, of the speculative distance of their pair: what touches a sleeper is as near
 // (sleep.h). A wider range than that distance is cut, for contacts are not sure to exist beyond it.
 CONSTANT float ATTRACTING = 0.25f;
-
-// By how much of a substep the direction of a contact's own impulses is late, in the mean, measured: with 0 two balls that turn
-// about each other under 2.5 times their weight lose half of their spin in five seconds.
-CONSTANT float LAG = 0.7f;
 
 struct Cohesion {
     float force;  // of a pair, N; 0: none
@@ -61,7 +58,7 @@ LAW float attracting_points(uint count, vec4 separation, float range) {
 // pair's force. `va`, `vb`: as the step begins.
 LAW Wrench attraction(Constraint c, ContactImpulse impulse, Cohesion cohesion, float part, uint side, Velocity va, Velocity vb,
                       Parameters parameters) {
-    vec3 middle = impulse.center_offset + (vb.linear - va.linear) * (0.5f * (parameters.dt - LAG * parameters.h));
+    vec3 middle = impulse.center_offset + (vb.linear - va.linear) * (0.5f * (parameters.dt - parameters.h));
     c = refresh_round_contact(c, middle);
     float points = attracting_points(point_count(c), impulse.separation, cohesion.range);
     float each = (cohesion.force * part) * reciprocal(larger(points, 1.0f));
