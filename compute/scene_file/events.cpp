@@ -98,6 +98,10 @@ struct Check {
         const std::string inside = "/action/pour";
         if (!event.grains.poured()) refuse(index, inside, "needs a \"mass_rate\" or \"count_rate\", above 0");
         supply_of(event.grains, "/events/" + std::to_string(index) + inside);
+        if (const std::size_t count = poured(event.grains, scene); count > event.grains.from)
+            refuse(index, inside + "/name",
+                   "a body of the scene is named \"" + name_of_poured(event.grains) + " " + std::to_string(count - 1) +
+                       "\", as a poured grain; give the grains another name, which tells how many have come");
         for (std::size_t i = 0; i < index; ++i) {
             const auto* other = std::get_if<PourEvent>(&events[i].action);
             if (other && name_of_poured(other->grains) == name_of_poured(event.grains))
@@ -170,7 +174,7 @@ std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, con
         auto* glide = std::get_if<GlideEvent>(&next.action);
         const bool under_way = glide && next.time < 0 && next.time + glide->duration > 0;
         if (auto* pour = std::get_if<PourEvent>(&next.action); pour && next.time < 0) {
-            pour->grains.from = poured(pour->grains, world);
+            pour->grains.from = poured(pour->grains, world.scene());
             next.time = 0;
             if (pour->grains.from < supply_of(pour->grains, "/events")->count()) coming.push_back(next);
             continue;

@@ -226,10 +226,10 @@ std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::st
     return made;
 }
 
-std::size_t poured(const Grains& grains, const World& world) {
+std::size_t poured(const Grains& grains, const Scene& scene) {
     const std::string start = name_of_poured(grains) + " ";
     std::size_t count = grains.from;
-    for (const Body& body : world.scene().bodies) {
+    for (const Body& body : scene.bodies) {
         if (!body.name.starts_with(start)) continue;
         std::size_t number = 0;
         const char* const end = body.name.data() + body.name.size();
@@ -246,7 +246,7 @@ void pour_due(const Grains& grains, double start, World& world) {
     if (world.steps() < first || (world.steps() - first) % between != 0) return;
     const std::shared_ptr<const GrainSupply> supply = supply_of(grains, "/grains");
     const double time = static_cast<double>((world.steps() - first) / between + 1) * static_cast<double>(between) / rate;
-    const std::size_t next = poured(grains, world), end = due(*supply, time);
+    const std::size_t next = poured(grains, world.scene()), end = due(*supply, time);
     if (next >= end) return;
     const std::vector<Body> bodies = with_room(*supply, next, end, world);
     if (!bodies.empty()) world.add_bodies(bodies);

@@ -16,8 +16,8 @@ constexpr std::size_t most_poured = 20'000'000;
 // place, also for more than `most`.
 std::shared_ptr<const GrainSupply> supply_of(const Grains& grains, const std::string& place, std::size_t most = most_poured);
 
-// How many have come into a world, those left out included.
-std::size_t poured(const Grains& grains, const World& world);
+// How many have come into the scene of a world, those left out included.
+std::size_t poured(const Grains& grains, const Scene& scene);
 
 // Adds the grains of a pour that begins at a time, s, which are due before the world's next step. Throws SceneError.
 void pour_due(const Grains& grains, double start, World& world);

@@ -11,9 +11,7 @@ namespace scree {
 struct NearRows {
     struct Box {
         physics::vec3 lower;  // m
-        float pad0 = 0;
         physics::vec3 upper;
-        float pad1 = 0;
     };
     // By row: its bounds of some step with a margin; of a row that was not in the grid, empty.
     std::vector<Box> boxes;
