@@ -183,9 +183,9 @@ struct Coupling {
     Axis sum{};                     // without armature
 };
 constexpr std::size_t most_coupled_axes = 8;
-// Of what bodies and couplings connect: joints, with couplings among them, and couplings alone.
-constexpr std::size_t most_joints_of_coupled_block = 54;
-constexpr std::ptrdiff_t most_couplings_of_block = 26;
+// Limits of a group of joints that share bodies or couplings, with at least one coupling.
+constexpr std::size_t most_joints_of_coupled_block = 54;  // couplings count as joints
+constexpr std::size_t most_couplings_of_block = 26;
 using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof, Coupling>;
 // The axis along or about which a joint of that kind moves, if it has one: x of a slider, distance or coupling, else twist.
 JointAxis main_axis(const JointKind& kind);

@@ -521,8 +521,8 @@ void check_couplings(const Scene& scene) {
             return block_of[term.joint] == block_of[coupling->joints.front().joint];
         });
         const std::vector<Eliminated>& order = blocks[block_of[j]].order;
-        const auto couplings =
-            std::count_if(order.begin(), order.end(), [&](const Eliminated& each) { return couples(scene.joints[each.joint]); });
+        const auto couplings = static_cast<std::size_t>(
+            std::count_if(order.begin(), order.end(), [&](const Eliminated& each) { return couples(scene.joints[each.joint]); }));
         if (together && order.size() <= most_joints_of_coupled_block && couplings <= most_couplings_of_block) continue;
         throw SceneError("/joints/" + std::to_string(j) + "/kind/coupling",
                          "its joints cannot be solved together: with all that bodies and couplings connect with them there are "

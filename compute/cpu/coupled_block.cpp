@@ -29,7 +29,7 @@ void for_each_term(const Joint& coupling, const Visit& visit) {
 physics::JointAxis coupling_axis(const Joint& coupling) {
     return physics::axis_of_coupling(coupling.axes[0], coupling.flags);
 }
-// The axis that its unit is that of.
+// The axis whose unit, m or rad, the coupling has: that of its first term.
 uint index_of(const Joint& coupling) {
     return physics::axis_of_term(coupling.fill_in_of[0]);
 }
@@ -82,7 +82,7 @@ float JointBlock::with_couplings(float normal_impulse, const Joint& joint) {
     });
     return normal_impulse;
 }
-// Adds that of a coupling to those of its joints' rows.
+// Adds a coupling's impulse, times its factors, to the impulses of its joints' rows.
 void JointBlock::add_to_terms(const Joint& coupling, float impulse) {
     if (impulse == 0) return;
     for_each_term(coupling, [&](uint of, uint k, float factor) {
@@ -190,7 +190,7 @@ bool JointBlock::other_bounds_of_coupling(Joint& coupling, bool biased, bool set
 }
 
 // ---- equations
-// Of a row of a joint and that of a coupling.
+// The entry of row k of a joint with a coupling's row.
 float JointBlock::coupled_entry(const Joint& joint, uint k, const Joint& coupling) const {
     float sum = 0;
     for_each_term(coupling, [&](uint of, uint axis, float factor) {
@@ -262,7 +262,7 @@ void JointBlock::solve_border() {
     for (std::size_t g = 0; g < all.size(); ++g) {
         CoupledJoint& own = coupled(all[g]);
         if (!own.unknown) continue;
-        // The entry with an earlier coupling, or its own, without what the rows before that one change.
+        // Eliminates the joints' rows and the couplings before `before` from an entry.
         const auto eliminated = [&](float entry, const CoupledJoint& with, std::size_t before) {
             for_each_row([&](std::size_t at, uint k, const physics::JointEquations& rows) {
                 if (with.column[at] == 0 || own.column[at] == 0) return;
@@ -294,7 +294,7 @@ void JointBlock::solve_border() {
                     own.solution, physics::multiplier_of(own.column[place(all[e])], earlier.inverse_pivot), earlier.solution);
         }
     }
-    // Substitution, and what is left to the joints.
+    // Back substitution, then the couplings' impulses on the joints' right-hand sides.
     for (std::size_t g = all.size(); g-- > 0;) {
         CoupledJoint& own = coupled(all[g]);
         if (!own.unknown) continue;

@@ -15,8 +15,8 @@
 
 namespace scree::reference {
 
-// What a block with couplings has beside its equations. Of a joint, the impulses that its bodies get, also by couplings; of a
-// coupling, its equation, with the entries by row of the block: 6 joint + axis.
+// Scratch of a pass over a block with couplings, for each of its joints. A joint uses the first two members: the impulses of its
+// rows, couplings included, and their axes. A coupling uses the others: its equation, whose column is by row, 6 joint + axis.
 struct CoupledJoint {
     JointLanes impulses;
     physics::uint axes;

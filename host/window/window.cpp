@@ -162,7 +162,6 @@ struct Window::Impl {
     static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
     void moved(double to_x, double to_y);
     bool is_over_panel() const;
-    static bool is_text_edited();
     void clicked(int button, int action, int modifiers);
     void typed(int code, int place, int action, int modifiers);
     void set_text_scale(float scale);
@@ -249,16 +248,10 @@ void Window::Impl::clicked(int button, int action, int modifiers) {
     events.push_back(event);
 }
 
-// Dear ImGui's WantTextInput lags by up to two pictures.
-bool Window::Impl::is_text_edited() {
-    const ImGuiID active = ImGui::GetActiveID();
-    return active != 0 && ImGui::GetInputTextState(active) != nullptr;
-}
-
 void Window::Impl::typed(int code, int place, int action, int modifiers) {
     if (action == GLFW_REPEAT) return;
     const std::uint64_t order = keyboard.add({.code = code, .place = place, .action = action, .modifiers = modifiers});
-    if (action == GLFW_PRESS && code != GLFW_KEY_ESCAPE && is_text_edited()) return;
+    if (action == GLFW_PRESS && code != GLFW_KEY_ESCAPE && edits_text()) return;
     Event event{.kind = action == GLFW_PRESS ? EventKind::key_pressed : EventKind::key_released, .x = x, .y = y};
     event.key = key_of_glfw(code);
     event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
@@ -337,6 +330,11 @@ void Window::begin_panel(bool takes_keys) {
 }
 void Window::end_panel() {
     ImGui::Render();
+}
+// WantTextInput lags by up to two pictures.
+bool Window::edits_text() {
+    const ImGuiID active = ImGui::GetActiveID();
+    return active != 0 && ImGui::GetInputTextState(active) != nullptr;
 }
 void Window::forget_text(const Event& key) {
     interior_->keyboard.forget_text(key.order);

@@ -52,7 +52,7 @@ private:
     }
 };
 
-// The axes of a kind by JointAxis that a coupling can take: null for others.
+// Whether a joint of that kind moves on the axis, so that a coupling can name it.
 bool can_be_coupled(const JointKind& kind, JointAxis axis) {
     if (std::holds_alternative<Hinge>(kind) || std::holds_alternative<ConeTwist>(kind)) return axis == JointAxis::twist;
     if (std::holds_alternative<Slider>(kind) || std::holds_alternative<Distance>(kind)) return axis == JointAxis::x;
@@ -68,6 +68,7 @@ void examine_coupling(const Examination& joint, Joint& j, Coupling& coupling, co
         joint.refuse(j.a != the_world ? "/a" : "/b", "a coupling joins joints, not bodies; leave a and b out");
     schema::check_fields(joint, j, Rules());
     const std::string place = "/kind/coupling";
+    if (j.collide) joint.refuse("/collide", "a coupling joins no bodies that could collide; leave it out");
     if (j.anchor_a != vec3(0) || j.anchor_b != vec3(0))
         joint.refuse("", "a coupling is at no place; leave out its anchors and its axis");
     if (coupling.joints.size() > most_coupled_axes || (!coupling.curve.empty() && coupling.joints.size() > 4))

@@ -20,7 +20,7 @@ void main() {
             WRITE(forces, i, gravity_forces(body, parameters_of(body.owner)));
         else
             WRITE(forces, i, gravity_forces(body, PARAMETERS));
-        // Without a branch on parameters alone: lavapipe would compile the shader anew in each step, for its parameters.
+        // No branch on wake_all: lavapipe would compile the shader anew in each step, specialised for its value.
         uint state = WORD(sleep_states, i);
         WORD(sleep_states, i) = choose(PARAMETERS.wake_all != 0u, roused(state, PARAMETERS.sleep_steps), state);
     }

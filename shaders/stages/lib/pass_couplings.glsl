@@ -21,7 +21,7 @@ float speed_of_row(uint joint, uint k) {
 }
 
 // ---- impulses
-// Adds that of a coupling to those of its joints' rows, which are to be applied.
+// Adds a coupling's impulse, times its factors, to the impulses that its joints' rows will apply.
 void add_to_terms(uint g, float impulse) {
     if (impulse == 0.0f) return;
     uint coupling = block_first_joint + g, count = terms_of(coupling);
@@ -52,7 +52,7 @@ float speed_of_coupling(uint g, bool before) {
     return sum;
 }
 
-// Of one thread: passes on to the joints' rows what the couplings give.
+// Adds the given impulses of the couplings to their joints' rows. One thread does it.
 void pass_on_impulses() {
     for (uint g = first_coupling(); g < block_joints; ++g) {
         if (pushing[g] == 0u) continue;
@@ -62,7 +62,7 @@ void pass_on_impulses() {
 }
 
 // ---- equations
-// Of row k of a joint and that of a coupling.
+// The entry of row k of a joint with a coupling's row.
 float coupled_entry(uint j, uint k, uint g) {
     uint coupling = block_first_joint + g, count = terms_of(coupling);
     float sum = 0.0f;
@@ -70,16 +70,7 @@ float coupled_entry(uint j, uint k, uint g) {
         uint i = joint_in_block(term_of(coupling, t)), axis = axis_of_term(term_of(coupling, t));
         int ends = shared_ends(side_a(j), side_b(j), side_a(i), side_b(i));
         if (ends == 0) continue;
-        Mass mass_a = mass_of_side(side_a(i)), mass_b = mass_of_side(side_b(i));
-        RowResponse to;
-        to.direction = row_vector(i, axis, DIRECTION);
-        to.axis = axis;
-        to.turn_a = row_vector(i, axis, TURN_A);
-        to.inverse_mass_a = mass_a.inverse_mass;
-        to.turn_b = row_vector(i, axis, TURN_B);
-        to.inverse_mass_b = mass_b.inverse_mass;
-        to.split_a = mass_a.split;
-        to.split_b = mass_b.split;
+        RowResponse to = response_of_row(i, axis);
         float entry =
             row_entry(row_vector(j, k, DIRECTION), row_vector(j, k, ANGULAR_A), row_vector(j, k, ANGULAR_B), k, to, ends);
         sum = with_entry(sum, factor_of(coupling, t), entry);
@@ -123,7 +114,7 @@ void eliminate_column(uint g) {
     for (uint w = 0u; w < 2u; ++w) FOR_AXES(bit, joints_left, touched[2u * (g) + w] & touched[2u * (with) + w]) \
     for (uint j = 32u * w + bit, axes_left = unknowns[32u * w + bit], k;                                        \
          axes_left != 0u && (k = uint(findLSB(axes_left))) < 32u; axes_left &= axes_left - 1u)
-// The entry with an earlier coupling, or its own, without what the rows of joints change.
+// Eliminates the joints' rows from the entry with an earlier coupling, or from the diagonal entry.
 float eliminated_by_joints(uint g, float entry, uint with) {
     FOR_TOUCHED(j, k, g, with) {
         float own = COLUMN(g, 6u * j + k), other = COLUMN(with, 6u * j + k);
@@ -131,7 +122,7 @@ float eliminated_by_joints(uint g, float entry, uint with) {
     }
     return entry;
 }
-// And without what the couplings before that one change.
+// Eliminates the couplings before that one from the entry.
 float eliminated_by_couplings(uint g, uint with) {
     float entry = COLUMN(g, 6u * with);
     for (uint e = first_coupling(); e < with; ++e)
@@ -158,7 +149,7 @@ void eliminate_coupling(uint g) {
         if (is_unknown[e] != 0u) sum = less_multiple(sum, multiplier_of(COLUMN(g, 6u * e), pivots[6u * e]), solutions[6u * e]);
     solutions[6u * g] = sum;
 }
-// Substitution, and what is left to a row of the joints.
+// Back substitution; lessen_row() then takes the couplings' impulses to a joint's right-hand side.
 void substitute_couplings() {
     for (uint g = block_joints; g-- > first_coupling();) {
         if (is_unknown[g] == 0u) continue;

@@ -313,7 +313,7 @@ TEST_CASE("fingers of a hand that floats leave its momentum as it is, and a load
     CHECK(std::abs(way(world, 0) + way(world, 1)) < 1e-5);
 }
 
-TEST_CASE("a coupling breaks above its torque and says so; one whose joint has broken does nothing") {
+TEST_CASE("a coupling breaks above its torque and says so, and one whose joint has broken does nothing") {
     Scene scene = weightless();
     const std::size_t a = add_wheel(scene, 0, 1), b = add_wheel(scene, 1, 1), c = add_wheel(scene, 2, 1);
     const std::size_t weak = couple(scene, {.joints = {{a, 1}, {b, 1}}}, unlimited, 6);
@@ -490,6 +490,7 @@ TEST_CASE("what cannot be coupled is refused by name") {
     says(gear + R"({"joints": [{"joint": "a"}], "limits": {"lower": 1, "upper": 0}}}})", "reversed");
     says(gear + R"({"joints": [{"joint": "a"}]}}, "b": 0})", "a coupling joins joints, not bodies");
     says(gear + R"({"joints": [{"joint": "a"}]}}, "anchor": [1, 0, 0]})", "a coupling is at no place");
+    says(gear + R"({"joints": [{"joint": "a"}]}}, "collide": true})", "joins no bodies that could collide");
     Scene train = weightless();
     for (int i = 0; i < 40; ++i) add_wheel(train, static_cast<float>(i), 1);
     for (std::size_t i = 0; i + 1 < 40; ++i) couple(train, {.joints = {{i, 1}, {i + 1, 1}}});
