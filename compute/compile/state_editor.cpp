@@ -88,7 +88,7 @@ TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
 TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
     const float h_before = state_.fixed().h;
     state_.fixed() = tuned(state_.fixed(), gravity, settings);
-    state_.fit_impacts();
+    state_.fit_tables();
     const TableRanges changed = needed_to_tune(settings);
     if (settings.substeps == state_.substeps) return {};
     state_.substeps = settings.substeps;

@@ -1,60 +1,74 @@
-// Reference stage of cohesion: what their contacts attract bodies with.
+// Reference stages of cohesion: what contacts attract their bodies with.
 #include "shaders/physics/contact/cohesion.h"
 
+#include "compute/cpu/contact_runs.h"
 #include "compute/cpu/stages.h"
 
 namespace scree::reference {
 
 namespace {
 
-physics::Cohesion cohesion_of(const State& state, const physics::Contact& contact) {
-    const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
-    const physics::uint a = physics::surface_of(ta), b = physics::surface_of(tb);
-    if (a == 0 || b == 0) return {0, 0};
-    return physics::cohesion_between(ta, state.surfaces[a - 1], tb, state.surfaces[b - 1], state.fixed());
-}
-
 bool is_attracting(const State& state, std::size_t contact, float range) {
     return physics::attracting_points(state.contacts[contact].count, state.impulses[contact].separation, range) > 0;
 }
 
-// The part of a pair's force that each of its contacts has which attract the bodies. `body`: one whose slots have all of them.
-float part_of_pair(const State& state, const physics::Constraint& c, float range, std::size_t body) {
+// The part of a pair's force that each of its contacts has which attract the bodies.
+float part_of_pair(const State& state, const physics::Contact& contact, std::size_t body_with_slots, float range) {
+    const std::uint32_t a = state.body_of(contact.a), b = state.body_of(contact.b);
     std::size_t contacts = 0;
-    for (std::size_t k = state.first_slot_of(body); k < state.slot_ends[body]; ++k) {
-        const std::size_t contact = state.slot_sides[k] / 2;
+    for (std::size_t k = state.first_slot_of(body_with_slots); k < state.slot_ends[body_with_slots]; ++k) {
         if ((state.slot_sides[k] & physics::OF_JOINT) != 0) continue;
-        const physics::Contact& other = state.contacts[contact];
-        contacts += state.body_of(other.a) == c.a && state.body_of(other.b) == c.b && is_attracting(state, contact, range);
+        const std::size_t other = state.slot_sides[k] / 2;
+        contacts += state.body_of(state.contacts[other].a) == a && state.body_of(state.contacts[other].b) == b &&
+                    is_attracting(state, other, range);
     }
-    return physics::reciprocal(static_cast<float>(contacts));
+    return physics::reciprocal(physics::larger(static_cast<float>(contacts), 1.0f));
 }
 
-physics::Wrench attraction_in(const State& state, std::size_t body, std::uint32_t side) {
-    const std::size_t i = side / 2;
+physics::Cohesion cohesion_of(const State& state, std::size_t i) {
     const physics::Contact& contact = state.contacts[i];
-    const physics::Cohesion cohesion = cohesion_of(state, contact);
-    if (cohesion.force <= 0 || !is_attracting(state, i, cohesion.range)) return {};
+    const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
+    const physics::uint a = physics::surface_of(ta), b = physics::surface_of(tb);
+    if (!is_solved(state, i) || a == 0 || b == 0) return {0, 0};
+    physics::Cohesion found = physics::cohesion_between(ta, state.surfaces[a - 1], tb, state.surfaces[b - 1], state.fixed());
+    if (found.force > 0 && (physics::is_part(ta) || physics::is_part(tb))) {
+        const bool moves_a = state.contact_slots[2 * i] != physics::NONE;
+        found.force *= part_of_pair(state, contact, state.body_of(moves_a ? contact.a : contact.b), found.range);
+    }
+    return found;
+}
+
+void attract(State& state, std::size_t i) {
+    const physics::Cohesion cohesion{state.attractions[2 * i], state.attractions[2 * i + 1]};
+    if (cohesion.force <= 0 || !is_attracting(state, i, cohesion.range)) return;
     const physics::Constraint& c = state.constraints[i];
-    const bool of_parts = physics::is_part(state.properties[contact.a]) || physics::is_part(state.properties[contact.b]);
-    const float part = of_parts ? part_of_pair(state, c, cohesion.range, body) : 1;
-    return physics::attraction(c, state.impulses[i], cohesion, part, side % 2, state.velocities[c.a], state.velocities[c.b],
-                               state.fixed());
+    const physics::ContactImpulse& impulse = state.impulses[i];
+    const physics::VelocityPair change =
+        physics::attraction(c, impulse.separation, impulse.center_offset, cohesion, physics::whole_mass(state.masses[c.a]),
+                            physics::whole_mass(state.masses[c.b]), state.fixed());
+    const auto add = [&](std::uint32_t slot, const physics::Velocity& to) {
+        if (slot != physics::NONE) state.slots[slot] = physics::with_change(state.slots[slot], to);
+    };
+    add(c.slot_a, change.a);
+    add(c.slot_b, change.b);
 }
 
 }  // namespace
 
-void apply_cohesion(State& state, const Threads& threads, std::uint32_t) {
-    if (state.counted().overflow) return;
-    threads.for_each(state.fixed().first_part, [&](std::size_t i) {
-        const std::size_t first = state.first_slot_of(i), last = state.slot_ends[i];
-        if (first == last || !state.is_owned(i)) return;
-        physics::Wrench sum{};
-        for (std::size_t k = first; k < last; ++k)
-            if ((state.slot_sides[k] & physics::OF_JOINT) == 0)
-                sum = physics::plus(sum, attraction_in(state, i, state.slot_sides[k]));
-        state.forces[i] = physics::with_attraction(state.forces[i], sum, physics::whole_mass(state.masses[i]));
+void prepare_cohesion(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Cohesion found = cohesion_of(state, i);
+        state.attractions[2 * i] = found.force;
+        state.attractions[2 * i + 1] = found.range;
     });
+}
+
+void apply_cohesion(State& state, const Threads& threads, std::uint32_t) {
+    const auto alone = [&](std::size_t i) { attract(state, i); };
+    if (const WideStages* wide = wide_stages(threads.lanes()))
+        for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->attract, alone);
+    else
+        threads.for_each(state.counted().solver_contacts, [&](std::size_t k) { alone(state.contacts_to_solve[k]); });
 }
 
 }  // namespace scree::reference

@@ -93,7 +93,6 @@ void DistributedRunner::adapt() {
         if (starts_with(name, "predict_impacts")) after_[i] = SyncPoint::struck;
         if (name == "propagate_wake") before_[i] = SyncPoint::wake;
         if (name == "propagate_wake" && plan_[i].pass == 2) after_[i] = SyncPoint::wake;
-        if (name == "apply_cohesion") after_[i] = SyncPoint::forces;
         if (name == "begin_substep") after_[i] = SyncPoint::velocities;
         if (name == "move_bodies") after_[i] = SyncPoint::motion;
         if (name == "end_step") after_[i] = SyncPoint::ends;

@@ -58,7 +58,6 @@ private:
         room,        // after the totals of pairs and contacts: overflows
         struck,      // after predict_impacts, if some body is fast
         wake,        // before each round of propagate_wake, and after the last: sleep states, if some body sleeps
-        forces,      // after apply_cohesion: those of ghosts
         velocities,  // after begin_substep, while contacts and joints without ghosts are solved
         motion,      // after move_bodies, while they are relaxed
         ends,        // after end_step: whether some body is fast, and then poses and sweeps

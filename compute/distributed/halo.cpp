@@ -357,12 +357,6 @@ void Halo::send_stops(State& state, Exchange& exchange) {
         });
 }
 
-void Halo::send_forces(State& state, Exchange& exchange) {
-    send<physics::BodyForces>(
-        state, exchange, [](const State& s, std::uint32_t row) { return s.forces[row]; },
-        [](State& s, std::uint32_t row, const physics::BodyForces& forces) { s.forces[row] = forces; });
-}
-
 void Halo::send_kept(State& state, Exchange& exchange) {
     send<float>(
         state, exchange, [](const State& s, std::uint32_t row) { return s.forces[row].kept; },

@@ -21,8 +21,7 @@ public:
     // Of every ghost, from its owner.
     void send_sleep_states(State& state, Exchange& exchange);
     void send_struck(State& state, Exchange& exchange);  // and of what all ranks have, united
-    void send_forces(State& state, Exchange& exchange);
-    void send_ends(State& state, Exchange& exchange);  // poses and sweeps, as continuous collision reads them
+    void send_ends(State& state, Exchange& exchange);    // poses and sweeps, as continuous collision reads them
     void send_stops(State& state, Exchange& exchange);
     void send_kept(State& state, Exchange& exchange);  // of bodies that break
 

@@ -78,11 +78,6 @@ bool DistributedRunner::exchange_at(SyncPoint at) {
         case SyncPoint::wake:
             sync_wake();
             break;
-        case SyncPoint::forces:
-            device_.fetch({forces}, Rows::sent);
-            halo_.send_forces(*state_, *exchange_);
-            device_.store({forces}, Rows::ghosts);
-            break;
         case SyncPoint::velocities:
             device_.fetch({velocities, masses}, Rows::sent);
             halo_.start_velocities(*state_, *exchange_);

@@ -70,6 +70,7 @@ SCREE_STAGE(relax_joints);  // pass: 1 in the last substep
 SCREE_STAGE(apply_fields);
 
 // cohesion.cpp
+SCREE_STAGE(prepare_cohesion);
 SCREE_STAGE(apply_cohesion);
 
 // vehicles.cpp

@@ -6,17 +6,18 @@
 // has the radius of the ball of its volume; planes, height fields and what else has no volume are flat. The work of a pair is the
 // geometric mean (Girifalco, Good, J. Phys. Chem. 61, 1957).
 //
-// The force is that of the two bodies: the contacts that they have with each other share it, and so do the points of a contact.
-// It follows once a step from the gaps as the step begins, and acts like gravity through the step, in the direction of the middle
-// of the step: in that of its beginning, two balls that turn about each other would turn faster and faster. (Impulses of contacts
-// have the direction in which a substep begins; so has this force, in the mean.) So passes over contacts do not know of it, and
-// action and reaction come from the same numbers.
+// The force is that of the two bodies: the contacts that they have with each other share it, as the gaps are when a step begins,
+// and so do the points of a contact that are within the range when a substep begins. A contact gives its bodies the impulse with
+// which they begin the substep together with its warm start: at the same point, along the same normal, from the same numbers. So
+// momentum and angular momentum are exact to rounding, as with its other impulses, and the passes do not know of cohesion.
 #ifndef SCREE_PHYSICS_COHESION_H
 #define SCREE_PHYSICS_COHESION_H
 
 #include "shaders/physics/body/body_scale.h"
 #include "shaders/physics/contact/contact_solver.h"
+#ifndef SCREE_LANES
 #include "shaders/physics/contact/material.h"
+#endif
 
 LAWS_BEGIN
 
@@ -29,6 +30,7 @@ struct Cohesion {
     float range;  // m
 };
 
+#ifndef SCREE_LANES  // which find no forces
 // 1 over the radius of a row's body, 1/m; 0: flat.
 LAW float curvature_of(BodyProperties row, Surface surface) {
     bool ball = row.shape == SHAPE_SPHERE && !is_part(row);
@@ -43,6 +45,7 @@ LAW Cohesion cohesion_between(BodyProperties ta, Surface sa, BodyProperties tb, 
     found.range = choose(told < 0.0f, ATTRACTING * farthest, smaller(told, farthest));
     return found;
 }
+#endif
 
 LAW bool attracts(uint count, vec4 separation, float range, int k) {
     return uint(k) < count && separation[k] <= range;
@@ -54,33 +57,24 @@ LAW float attracting_points(uint count, vec4 separation, float range) {
     return points;
 }
 
-// What a contact exerts on one of its bodies, at the body's centre of mass, N and N m. `side`: 0 for A, 1 for B. `part`: of the
-// pair's force. `va`, `vb`: as the step begins.
-LAW Wrench attraction(Constraint c, ContactImpulse impulse, Cohesion cohesion, float part, uint side, Velocity va, Velocity vb,
-                      Parameters parameters) {
-    vec3 middle = impulse.center_offset + (vb.linear - va.linear) * (0.5f * (parameters.dt - parameters.h));
-    c = refresh_round_contact(c, middle);
-    float points = attracting_points(point_count(c), impulse.separation, cohesion.range);
-    float each = (cohesion.force * part) * reciprocal(larger(points, 1.0f));
+// What the attraction of a contact changes of its bodies' velocities in a substep. `separation`, `center_offset`: at present.
+LAW VelocityPair attraction(Constraint c, vec4 separation, vec3 center_offset, Cohesion cohesion, Mass a, Mass b,
+                            Parameters parameters) {
+    c = refresh_round_contact(c, center_offset);
+    float points = attracting_points(point_count(c), separation, cohesion.range);
+    float each = (cohesion.force * parameters.h) * reciprocal(larger(points, 1.0f));
     vec3 press = vec3(0.0f);
     for (int k = 0; k < 4; ++k) {
-        bool acts = attracts(point_count(c), impulse.separation, cohesion.range, k);
+        bool acts = attracts(point_count(c), separation, cohesion.range, k);
         press = press + press_at(c, choose(acts, -each, 0.0f), k);
     }
-    Wrench wrench = wrench_of_press(c, press);
-    LeverArms arms = lever_arms(c, c.centre, middle);
-    bool on_b = side == 1u;
-    wrench.moment = cross3(choose(on_b, arms.b, arms.a), wrench.push) + wrench.moment;
-    wrench.push = choose(on_b, wrench.push, vec3(0.0f) - wrench.push);
-    wrench.moment = choose(on_b, wrench.moment, vec3(0.0f) - wrench.moment);
-    return wrench;
+    return changes_by(wrench_of_press(c, press), lever_arms(c, c.centre, center_offset), a, b);
 }
 
-// The body's accelerations with what its contacts exert.
-LAW BodyForces with_attraction(BodyForces load, Wrench sum, Mass mass) {
-    load.acceleration = load.acceleration + flush_tiny(sum.push * mass.inverse_mass);
-    load.angular_acceleration = load.angular_acceleration + flush_tiny(turned_by(mass, sum.moment));
-    return load;
+LAW VelocityDelta with_change(VelocityDelta slot, Velocity change) {
+    slot.linear = flush_tiny(slot.linear + change.linear);
+    slot.angular = flush_tiny(slot.angular + change.angular);
+    return slot;
 }
 
 LAWS_END
