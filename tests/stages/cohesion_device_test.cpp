@@ -14,8 +14,8 @@ using namespace scree;
 TEST_CASE("every stage gives the same bits on both processors where bodies of all kinds are cohesive",
           "[vulkan][process:kinds]") {
     const Watched watched;
-    for (const Scene& scene : {tests::sticky(tests::belts(40), 200), tests::sticky(tests::museum(30), 500)}) {
-        const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 60);
+    for (const Scene& scene : {tests::sticky(tests::belts(20), 200), tests::sticky(tests::museum(20), 500)}) {
+        const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 40);
         INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                      << result.detail);
         REQUIRE(result.equal);

@@ -1,7 +1,6 @@
 // A scene of tests whose bodies and parts are cohesive.
 #pragma once
 
-#include <utility>
 #include <variant>
 
 #include "compute/scene.h"
@@ -16,7 +15,7 @@ inline Scene sticky(Scene scene, float cohesion) {
             for (Part& part : compound->parts)
                 if (part.material) part.material->cohesion = cohesion;
     }
-    return std::move(scene);
+    return scene;
 }
 
 }  // namespace scree::tests

@@ -18,18 +18,18 @@ void attract(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Indices contacts(listed(tables.items, first, last));
-        const Kept& group = kept(tables, first);
-        Cohesion cohesion;
+        Float force, points;
         for (int lane = 0; lane < lanes; ++lane) {
-            cohesion.force.v[lane] = tables.attractions[2 * contacts.of[lane]];
-            cohesion.range.v[lane] = tables.attractions[2 * contacts.of[lane] + 1];
+            force.v[lane] = tables.attractions[2 * contacts.of[lane]];
+            points.v[lane] = tables.attractions[2 * contacts.of[lane] + 1];
         }
-        const Float points = attracting_points(point_count(group.c), group.impulse.separation, cohesion.range);
-        const Bool acts = living(first, last) && cohesion.force > 0.0f && points > 0.0f;
+        const Bool acts = living(first, last) && force > 0.0f;
         if (none(acts)) continue;
+        const Kept& group = kept(tables, first);
         const Mass a = whole_mass(gather<BodyMass>(tables.masses, Indices(group.c.a)));
         const Mass b = whole_mass(gather<BodyMass>(tables.masses, Indices(group.c.b)));
-        const VelocityPair change = attraction(group.c, group.impulse.separation, group.impulse.center_offset, cohesion, a, b, p);
+        const VelocityPair change =
+            changes_by_attraction(group.c, group.impulse.center_offset, Attraction{force, Uint(points)}, a, b, p);
         add_to_slots(tables, group.c.slot_a, acts, change.a);
         add_to_slots(tables, group.c.slot_b, acts, change.b);
         tables.unloaded[first / lanes] = 0;

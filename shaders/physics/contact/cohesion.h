@@ -6,10 +6,11 @@
 // has the radius of the ball of its volume; planes, height fields and what else has no volume are flat. The work of a pair is the
 // geometric mean (Girifalco, Good, J. Phys. Chem. 61, 1957).
 //
-// The force is that of the two bodies: the contacts that they have with each other share it, as the gaps are when a step begins,
-// and so do the points of a contact that are within the range when a substep begins. A contact gives its bodies the impulse with
-// which they begin the substep together with its warm start: at the same point, along the same normal, from the same numbers. So
-// momentum and angular momentum are exact to rounding, as with its other impulses, and the passes do not know of cohesion.
+// The force is that of the two bodies: the contacts that they have with each other share it, and so do the points of a contact.
+// Once a step the gaps tell which points attract: in a substep bodies fall farther than many a range is wide. Direction and place
+// follow in each substep. There a contact gives its bodies an impulse together with its warm start: at the same point, along the
+// same normal, from the same numbers. So momentum and angular momentum are exact to rounding, as with its other impulses, and the
+// passes do not know of cohesion.
 #ifndef SCREE_PHYSICS_COHESION_H
 #define SCREE_PHYSICS_COHESION_H
 
@@ -47,27 +48,46 @@ LAW Cohesion cohesion_between(BodyProperties ta, Surface sa, BodyProperties tb, 
 }
 #endif
 
-LAW bool attracts(uint count, vec4 separation, float range, int k) {
-    return uint(k) < count && separation[k] <= range;
-}
-// Points of a contact that attract each other.
-LAW float attracting_points(uint count, vec4 separation, float range) {
-    float points = 0.0f;
-    for (int k = 0; k < 4; ++k) points = points + choose(attracts(count, separation, range, k), 1.0f, 0.0f);
-    return points;
+// What a contact attracts its bodies with in a step.
+struct Attraction {
+    float force;  // at each of the points, N; 0: none
+    uint points;  // bit k: point k attracts
+};
+LAW bool attracts(uint points, int k) {
+    return (points >> uint(k) & 1u) != 0u;
 }
 
-// What the attraction of a contact changes of its bodies' velocities in a substep. `separation`, `center_offset`: at present.
-LAW VelocityPair attraction(Constraint c, vec4 separation, vec3 center_offset, Cohesion cohesion, Mass a, Mass b,
-                            Parameters parameters) {
+#ifndef SCREE_LANES
+LAW Attraction no_attraction() {
+    Attraction none;
+    none.force = 0.0f;
+    none.points = 0u;
+    return none;
+}
+// `count`, `separation`: points of the contact.
+LAW uint attracting_points(uint count, vec4 separation, float range) {
+    uint points = 0u;
+    for (int k = 0; k < 4; ++k) points = points | choose(uint(k) < count && separation[k] <= range, 1u << uint(k), 0u);
+    return points;
+}
+// `contacts`: of the pair, with points that attract.
+LAW Attraction shared_force(Cohesion cohesion, uint points, float contacts) {
+    float sharers = 0.0f;
+    for (int k = 0; k < 4; ++k) sharers = sharers + choose(attracts(points, k), contacts, 0.0f);
+    Attraction found;
+    found.force = choose(points != 0u, cohesion.force * reciprocal(larger(sharers, 1.0f)), 0.0f);
+    found.points = points;
+    return found;
+}
+#endif
+
+// What it changes of its bodies' velocities in a substep. `center_offset`: at present.
+LAW VelocityPair changes_by_attraction(Constraint c, vec3 center_offset, Attraction attraction, Mass a, Mass b,
+                                       Parameters parameters) {
     c = refresh_round_contact(c, center_offset);
-    float points = attracting_points(point_count(c), separation, cohesion.range);
-    float each = (cohesion.force * parameters.h) * reciprocal(larger(points, 1.0f));
+    float pull = -(attraction.force * parameters.h);
     vec3 press = vec3(0.0f);
-    for (int k = 0; k < 4; ++k) {
-        bool acts = attracts(point_count(c), separation, cohesion.range, k);
-        press = press + press_at(c, choose(acts, -each, 0.0f), k);
-    }
+    for (int k = 0; k < 4; ++k) press = press + press_at(c, choose(attracts(attraction.points, k), pull, 0.0f), k);
     return changes_by(wrench_of_press(c, press), lever_arms(c, c.centre, center_offset), a, b);
 }
 

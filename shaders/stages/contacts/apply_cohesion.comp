@@ -11,15 +11,13 @@ void main() {
     uint place = thread();
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
-    Cohesion cohesion;
-    cohesion.force = READ_FLOAT(attractions, 2u * i);
-    cohesion.range = READ_FLOAT(attractions, 2u * i + 1u);
-    if (!(cohesion.force > 0.0f)) return;
-    ContactImpulse impulse = READ_GROUPED(impulses, i);
+    Attraction attraction;
+    attraction.force = READ_FLOAT(attractions, 2u * i);
+    attraction.points = uint(READ_FLOAT(attractions, 2u * i + 1u));
+    if (!(attraction.force > 0.0f)) return;
     Constraint c = READ_GROUPED(constraints, i);
-    if (!(attracting_points(point_count(c), impulse.separation, cohesion.range) > 0.0f)) return;
-    VelocityPair change = attraction(c, impulse.separation, impulse.center_offset, cohesion, whole_mass(READ(masses, c.a)),
-                                     whole_mass(READ(masses, c.b)), PARAMETERS);
+    VelocityPair change = changes_by_attraction(c, READ_GROUPED(impulses, i).center_offset, attraction,
+                                                whole_mass(READ(masses, c.a)), whole_mass(READ(masses, c.b)), PARAMETERS);
     if (c.slot_a != NONE) WRITE(slots, c.slot_a, with_change(READ(slots, c.slot_a), change.a));
     if (c.slot_b != NONE) WRITE(slots, c.slot_b, with_change(READ(slots, c.slot_b), change.b));
 }

@@ -1,4 +1,4 @@
-// Finds with which force, and up to which gap, each contact attracts its bodies (shaders/physics/contact/cohesion.h).
+// Finds at which points, and with which force, each contact attracts its bodies (shaders/physics/contact/cohesion.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,45 +6,46 @@
 #include "shaders/physics/contact/contact_preparation.h"
 #include "shaders/stages/lib/contact_blocks.glsl"
 
-bool is_attracting(uint contact, uint count, float range) {
-    return attracting_points(count, READ_GROUPED(impulses, contact).separation, range) > 0.0f;
+uint attracting_points_of(uint contact, uint count, float range) {
+    return attracting_points(count, READ_GROUPED(impulses, contact).separation, range);
 }
 
-// The part of a pair's force that each of its contacts has which attract the bodies.
-float part_of_pair(SlotsOfBody slots, uint of_a, uint of_b, float range) {
-    float contacts_there = 0.0f;
+// Contacts of a pair of bodies that attract them.
+float attracting_contacts(SlotsOfBody slots, uint of_a, uint of_b, float range) {
+    float found = 0.0f;
     uint k = slots.first;
     do {
         uint side = READ_WORD(slot_sides, k);
         if ((side & OF_JOINT) == 0u) {
             Contact other = READ(contacts, side >> 1);
             bool same = body_of(other.a) == of_a && body_of(other.b) == of_b;
-            if (same && is_attracting(side >> 1, other.count, range)) contacts_there = contacts_there + 1.0f;
+            if (same && attracting_points_of(side >> 1, other.count, range) != 0u) found = found + 1.0f;
         }
         ++k;
     } while (k < slots.last);
-    return reciprocal(larger(contacts_there, 1.0f));
+    return found;
 }
 
-Cohesion cohesion_of(uint i, Contact contact) {
-    Cohesion found;
-    found.force = 0.0f;
-    found.range = 0.0f;
+Attraction attraction_of(uint i, Contact contact) {
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
     BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
-    if (is_idle(slot_a, slot_b) || surface_of(ta) == 0u || surface_of(tb) == 0u) return found;
-    found = cohesion_between(ta, READ_QUADS(surfaces, surface_of(ta) - 1u), tb, READ_QUADS(surfaces, surface_of(tb) - 1u),
-                             PARAMETERS);
-    if (!(found.force > 0.0f) || !(is_part(ta) || is_part(tb))) return found;
-    uint of_a = body_of(contact.a), of_b = body_of(contact.b);
-    found.force = found.force * part_of_pair(slots_of_pair(of_a, slot_a, of_b, slot_b), of_a, of_b, found.range);
-    return found;
+    if (is_idle(slot_a, slot_b) || surface_of(ta) == 0u || surface_of(tb) == 0u) return no_attraction();
+    Cohesion cohesion = cohesion_between(ta, READ_QUADS(surfaces, surface_of(ta) - 1u), tb,
+                                         READ_QUADS(surfaces, surface_of(tb) - 1u), PARAMETERS);
+    if (!(cohesion.force > 0.0f)) return no_attraction();
+    uint points = attracting_points_of(i, contact.count, cohesion.range);
+    float contacts_there = 1.0f;
+    if (points != 0u && (is_part(ta) || is_part(tb))) {
+        uint of_a = body_of(contact.a), of_b = body_of(contact.b);
+        contacts_there = attracting_contacts(slots_of_pair(of_a, slot_a, of_b, slot_b), of_a, of_b, cohesion.range);
+    }
+    return shared_force(cohesion, points, contacts_there);
 }
 
 void main() {
     uint i = thread();
     if (i >= COUNTED.contacts) return;
-    Cohesion found = cohesion_of(i, READ(contacts, i));
+    Attraction found = attraction_of(i, READ(contacts, i));
     SET_FLOAT(attractions, 2u * i, found.force);
-    SET_FLOAT(attractions, 2u * i + 1u, found.range);
+    SET_FLOAT(attractions, 2u * i + 1u, float(found.points));
 }
