@@ -12,7 +12,9 @@
 #include "compute/plan/plan.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
+#include "tests/world/museum.h"
 #include "tests/world/order/lanes.h"
 #include "tests/world/sticky.h"
 
@@ -224,6 +226,14 @@ TEST_CASE("cohesion has the same bits in lanes, on threads and ranks, in copies 
         World wide(scene, {}, std::make_unique<ReferenceRunner>(2, lanes));
         CAPTURE(lanes);
         CHECK(hashes_of(wide, 90) == expected);
+    }
+    const Scene of_all_kinds = tests::sticky(tests::museum(20), 500);
+    World alone(of_all_kinds, tests::coarse(), std::make_unique<ReferenceRunner>(1, 1));
+    const Hashes of_kinds = hashes_of(alone, 40);
+    for (const int lanes : tests::lanes_here()) {
+        World wide(of_all_kinds, tests::coarse(), std::make_unique<ReferenceRunner>(2, lanes));
+        CAPTURE(lanes);
+        CHECK(hashes_of(wide, 40) == of_kinds);
     }
     World restored(scene, {}, 1), other(scene, {}, 2);
     restored.step(45);
