@@ -88,8 +88,9 @@ struct Body {
     float static_friction = unset, spinning_resistance = unset, restitution_threshold = unset;
     vec3 surface_velocity{0};  // m/s, in the body's frame
     CombineRule friction_rule = CombineRule::usual, restitution_rule = CombineRule::usual;
-    float linear_damping = 0;   // 1/s, >= 0
-    float angular_damping = 0;  // 1/s, >= 0
+    float cohesion = 0, cohesion_range = unset;  // J/m^2; m
+    float linear_damping = 0;                    // 1/s, >= 0
+    float angular_damping = 0;                   // 1/s, >= 0
     float gravity_scale = 1;
     float drag = 1;                      // drag coefficient, >= 0, in Fields::wind and Fields::water
     std::uint64_t user_data = 0;         // the user's own; no result depends on it

@@ -105,6 +105,12 @@ struct Material {
     // stays awake.
     vec3 surface_velocity{0};
     CombineRule friction_rule = CombineRule::usual, restitution_rule = CombineRule::usual;
+    // J/m^2, work of adhesion, 0 to 1e6; a pair takes the geometric mean w. Bodies that touch attract each other with
+    // 2 pi w R, where 1/R is the sum of 1 over both radii (shaders/physics/contact/cohesion.h).
+    float cohesion = 0;
+    // m, gap up to which they do, 0 to 1; a pair takes the larger, but at most its speculative distance. Unset: a quarter of
+    // that.
+    float cohesion_range = unset;
 };
 
 struct Part {  // of a compound. Only solid parts have mass

@@ -51,13 +51,18 @@ public:
     void append_parts(const Body& body, std::uint32_t owner);                  // appends properties and poses of its parts
     void place(std::uint32_t part);                                            // sets a part's pose from its body's
     void set_material(physics::BodyProperties& properties, const Body& body);  // and damping
-    void set_surface(physics::BodyProperties& row, const Material& material);  // in place of the row's own
+    // In place of the row's own. `curvature`: curvature_of its body.
+    void set_surface(physics::BodyProperties& row, const Material& material, float curvature);
     void release_surface(physics::BodyProperties& row);
     static void set_mass(physics::BodyProperties& properties, const Body& body);  // and motion
 
     // field_records.cpp: parameters of fields, and how bodies meet air and water (none in a scene without both).
     void set_fields(const Scene& scene);
     static physics::Immersion immersion_of(const Body& body);
+
+    // cohesion_records.cpp: of a body of which some surface is cohesive, 1 over the radius of the ball of its volume, 1/m; 0: it
+    // is flat, or a ball, whose size tells it.
+    static float curvature_of(const Body& body);
 
     // filter_records.cpp: the tables of filters and exclusions, empty if the scene has none.
     void filter(const Scene& scene);
@@ -69,7 +74,7 @@ private:
     physics::uint place_of(const MeshForm& mesh);
     physics::uint place_of(const Fracture& fracture);
     physics::uint place_of(const std::optional<Tyre>& tyre);
-    physics::uint place_of(const Material& material);
+    physics::uint place_of(const Material& material, float curvature);
 
     State& state_;
     bool shares_meshes_ = false;

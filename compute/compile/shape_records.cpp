@@ -229,25 +229,30 @@ void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& bo
 }
 
 void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {
-    set_surface(properties, material_of(body));
+    set_surface(properties, material_of(body), curvature_of(body));
     properties.gravity_scale = body.gravity_scale;
     properties.linear_damping = body.linear_damping;
     properties.angular_damping = body.angular_damping;
 }
 
 // Index plus 1; 0: the material says no more than the properties.
-physics::uint SceneCompiler::place_of(const Material& material) {
+physics::uint SceneCompiler::place_of(const Material& material, float curvature) {
     if (material.static_friction <= material.friction && material.spinning_resistance < 0 && material.restitution_threshold < 0 &&
         material.surface_velocity == vec3(0) && material.friction_rule == CombineRule::usual &&
-        material.restitution_rule == CombineRule::usual)
+        material.restitution_rule == CombineRule::usual && material.cohesion == 0)
         return 0;
+    const bool coheres = material.cohesion > 0;
     const physics::Surface made{material.surface_velocity,
                                 material.static_friction,
                                 material.spinning_resistance,
                                 material.restitution_threshold,
                                 static_cast<physics::uint>(material.friction_rule),
-                                static_cast<physics::uint>(material.restitution_rule)};
-    const auto [known, fresh] = state_.shape_places.surfaces.try_emplace(std::bit_cast<std::array<physics::uint, 8>>(made));
+                                static_cast<physics::uint>(material.restitution_rule),
+                                material.cohesion,
+                                coheres ? material.cohesion_range : unset,
+                                coheres ? curvature : 0,
+                                0};
+    const auto [known, fresh] = state_.shape_places.surfaces.try_emplace(std::bit_cast<std::array<physics::uint, 12>>(made));
     if (fresh && !state_.spare.surfaces.empty()) {
         known->second = state_.spare.surfaces.back();
         state_.spare.surfaces.pop_back();
@@ -265,26 +270,27 @@ void SceneCompiler::release_surface(physics::BodyProperties& row) {
     const physics::uint surface = physics::surface_of(row);
     row.flags &= (1u << physics::ROW_SURFACE_SHIFT) - 1u;
     if (surface == 0 || --state_.spare.surface_users[surface - 1] > 0) return;
-    state_.shape_places.surfaces.erase(std::bit_cast<std::array<physics::uint, 8>>(state_.surfaces[surface - 1]));
+    state_.shape_places.surfaces.erase(std::bit_cast<std::array<physics::uint, 12>>(state_.surfaces[surface - 1]));
     state_.spare.surfaces.push_back(surface - 1);
 }
 
-void SceneCompiler::set_surface(physics::BodyProperties& row, const Material& material) {
+void SceneCompiler::set_surface(physics::BodyProperties& row, const Material& material, float curvature) {
     release_surface(row);
     row.friction = material.friction;
     row.restitution = material.restitution;
     row.rolling_resistance = material.rolling_resistance;
-    row.flags |= place_of(material) << physics::ROW_SURFACE_SHIFT;
+    row.flags |= place_of(material, curvature) << physics::ROW_SURFACE_SHIFT;
 }
 
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     const physics::BodyProperties whole = state_.properties[owner];
     const Material own = material_of(body);
+    const float curvature = curvature_of(body);
     const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn, const Material& material) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
         part.fracture = part.joints = physics::NONE;
-        set_surface(part, material);
+        set_surface(part, material, curvature);
         state_.properties.push_back(part);
         state_.parts.push_back({place, 0, turn});
     };

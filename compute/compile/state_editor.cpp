@@ -88,7 +88,7 @@ TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
 TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
     const float h_before = state_.fixed().h;
     state_.fixed() = tuned(state_.fixed(), gravity, settings);
-    state_.fit_impacts();
+    state_.fit_tables();
     const TableRanges changed = needed_to_tune(settings);
     if (settings.substeps == state_.substeps) return {};
     state_.substeps = settings.substeps;
@@ -296,11 +296,12 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     compiler.set_material(whole, body);
     const auto* compound = std::get_if<Compound>(&body.shape);
     const Material own = material_of(body);
+    const float curvature = SceneCompiler::curvature_of(body);
     TableRanges changed{{Table::properties, row, 1}};
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
         one.motion = static_cast<physics::uint>(body.motion) | physics::MOTION_OF_PART;
-        compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own);
+        compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own, curvature);
     }
     state_.note_content(row, 1);
     state_.note_content(first, count);

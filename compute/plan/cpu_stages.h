@@ -69,6 +69,10 @@ SCREE_STAGE(relax_joints);  // pass: 1 in the last substep
 // fields.cpp
 SCREE_STAGE(apply_fields);
 
+// cohesion.cpp
+SCREE_STAGE(prepare_cohesion);
+SCREE_STAGE(apply_cohesion);
+
 // vehicles.cpp
 SCREE_STAGE(drive_vehicles);
 

@@ -123,9 +123,11 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add("warm_start_contacts");
     s.add("prepare_contacts");
     if (features.joints) s.add("prepare_joints");
+    if (features.cohesion) s.add("prepare_cohesion");
     // solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t first = substep == 1 ? physics::PASS_FIRST : 0, last = substep == substeps ? physics::PASS_LAST : 0;
+        if (features.cohesion) s.add("apply_cohesion");
         s.add("begin_substep", first | static_cast<std::uint32_t>(substeps - substep) << physics::PASS_FOLLOWING);
         s.add("solve_contacts");
         if (features.joints) s.add("solve_joints");

@@ -188,6 +188,13 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
+    all.push_back({"prepare_cohesion", DispatchDomain::contacts, prepare_cohesion,
+        {{counts}, {contacts, A::contacts, 1}, {properties, A::bodies}, {surfaces}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses}},
+        {{attractions, A::contacts}}});
+    all.push_back({"apply_cohesion", DispatchDomain::solver_contacts, apply_cohesion,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {attractions, A::solver_contacts}, {impulses, A::solver_contacts}, {constraints, A::solver_contacts}, {masses, A::movers},
+         {slots, A::slots}},
+        {in_parts({slots, A::slots})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses}, {actions, A::actions}},
         {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_GHOSTS});

@@ -84,6 +84,12 @@ std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size
     return times;
 }
 
+// Whether nothing comes between the repetitions: a substep is told its number among those of its run.
+bool is_whole(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    const auto begins = std::count_if(plan.begin(), plan.end(), [&](const Stage& stage) { return stage.name == run.parts[0]; });
+    return times_at(run, plan, first) == static_cast<std::uint32_t>(begins);
+}
+
 // push.pass of shaders/stages/contacts/substeps.comp: `part` of `whole` substeps, after `before`.
 std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
     return before | part << 8 | whole << 16;
@@ -108,7 +114,8 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
     if (!is_small(parameters)) return plan;
     std::vector<Stage> stages;
     for (std::size_t i = 0; i < plan.size();) {
-        const auto run = std::find_if(runs().begin(), runs().end(), [&](const Run& each) { return begins_at(each, plan, i); });
+        const auto run = std::find_if(runs().begin(), runs().end(),
+                                      [&](const Run& each) { return begins_at(each, plan, i) && is_whole(each, plan, i); });
         if (run == runs().end()) {
             stages.push_back(plan[i++]);
             continue;

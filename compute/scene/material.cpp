@@ -12,7 +12,9 @@ Material material_of(const Body& body) {
             .restitution_threshold = body.restitution_threshold,
             .surface_velocity = body.surface_velocity,
             .friction_rule = body.friction_rule,
-            .restitution_rule = body.restitution_rule};
+            .restitution_rule = body.restitution_rule,
+            .cohesion = body.cohesion,
+            .cohesion_range = body.cohesion_range};
 }
 
 void set_material(Body& body, const Material& material) {
@@ -25,6 +27,8 @@ void set_material(Body& body, const Material& material) {
     body.surface_velocity = material.surface_velocity;
     body.friction_rule = material.friction_rule;
     body.restitution_rule = material.restitution_rule;
+    body.cohesion = material.cohesion;
+    body.cohesion_range = material.cohesion_range;
 }
 
 }  // namespace scree

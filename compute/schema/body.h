@@ -59,7 +59,13 @@ inline constexpr auto material_fields = std::tuple{
     field("friction_rule", &Owner::friction_rule,
           "How friction follows from that of both; of two rules the later one counts: usual (geometric), geometric, average, "
           "minimum, multiply, maximum, overriding_minimum, overriding_average"),
-    field("restitution_rule", &Owner::restitution_rule, "The same for restitution; usual: maximum")};
+    field("restitution_rule", &Owner::restitution_rule, "The same for restitution; usual: maximum"),
+    field("cohesion", &Owner::cohesion, between(0, 1e6), "J/m^2",
+          "Work of adhesion w; a pair takes the geometric mean. Bodies that touch attract each other with 2 pi w R, where 1/R is "
+          "the sum of 1 over both radii; of a body that is no ball the radius of the ball of its volume"),
+    field("cohesion_range", &Owner::cohesion_range, between(0, 1), "m",
+          "Gap up to which they do; a pair takes the larger, at most its speculative distance; left out of both: a quarter of "
+          "that")};
 
 template <>
 inline constexpr auto table<Material> =

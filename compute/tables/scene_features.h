@@ -18,6 +18,7 @@ struct SceneFeatures {
     bool reordered = false;  // rows differ from ids
     bool fields = false;     // there is wind, water or an attractor
     bool surfaces = false;   // some material has more than friction, restitution and rolling resistance
+    bool cohesion = false;   // some material is cohesive
     bool filters = false;    // some body has a collision filter or an excluded partner
     bool sums = false;       // contacts sum their impulses over the step
     bool copies = false;     // there are several copies of the scene
@@ -39,6 +40,7 @@ struct SceneFeatures {
                 .reordered = true,
                 .fields = true,
                 .surfaces = true,
+                .cohesion = true,
                 .filters = true,
                 .sums = true,
                 .copies = true,
@@ -48,6 +50,6 @@ struct SceneFeatures {
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 20 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 21 * sizeof(bool));  // everything() names all
 
 }  // namespace scree

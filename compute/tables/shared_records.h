@@ -18,8 +18,8 @@ namespace scree {
 struct ShapePlaces {
     std::map<std::shared_ptr<const HullForm>, physics::uint> hulls;
     std::map<std::pair<float, float>, physics::uint> tyres;
-    std::map<std::array<physics::uint, 8>, physics::uint> surfaces;  // by their words
-    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;        // in the table of pieces
+    std::map<std::array<physics::uint, 12>, physics::uint> surfaces;  // by their words
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;         // in the table of pieces
 };
 
 // Records of removed bodies, for new ones.

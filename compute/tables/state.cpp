@@ -53,6 +53,8 @@ std::size_t State::allocated(BufferLength length) const {
             return bounces() ? p.contact_capacity : 0;
         case BufferLength::contact_sides:
             return 2 * std::size_t{p.contact_capacity};
+        case BufferLength::attractions:
+            return row_content_.cohesion ? 2 * std::size_t{p.contact_capacity} : 0;
         case BufferLength::slots:
             return 2 * std::size_t{p.contact_capacity} + block_bodies.size();
         case BufferLength::joints:
@@ -112,6 +114,8 @@ std::size_t State::live(BufferLength length) const {
             return bounces() ? c.contacts : 0;
         case BufferLength::contact_sides:
             return 2 * std::size_t{c.contacts};
+        case BufferLength::attractions:
+            return row_content_.cohesion ? 2 * std::size_t{c.contacts} : 0;
         case BufferLength::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
         case BufferLength::candidates:  // unused once pairs are sorted
@@ -149,6 +153,8 @@ void State::note_content(std::span<const physics::BodyProperties> rows) {
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
         found.tyres |= physics::tyre_of(row) != 0;
+        const physics::uint surface = physics::surface_of(row);
+        found.cohesion |= surface != 0 && surfaces[surface - 1].cohesion > 0;
         found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
         found.convex |= physics::is_general_convex(row.shape);
@@ -156,11 +162,11 @@ void State::note_content(std::span<const physics::BodyProperties> rows) {
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }
-    fit_impacts();
+    fit_tables();
 }
 
-void State::fit_impacts() {
-    for (const Table table : {Table::impacts, Table::impacts_before})
+void State::fit_tables() {
+    for (const Table table : {Table::impacts, Table::impacts_before, Table::attractions})
         if (all_ || !raw(table).empty()) make(table);
 }
 
@@ -179,7 +185,7 @@ void State::index_surfaces() {
         if (spare.surface_users[i] == 0)
             spare.surfaces.push_back(i);
         else
-            shape_places.surfaces[std::bit_cast<std::array<physics::uint, 8>>(surfaces[i])] = i;
+            shape_places.surfaces[std::bit_cast<std::array<physics::uint, 12>>(surfaces[i])] = i;
 }
 
 void State::make(Table table) {
@@ -244,7 +250,8 @@ void State::shrink_contacts(std::uint32_t capacity) {
     allocate();
     const auto shrink = [](auto& table, BufferLength length) {
         using enum BufferLength;
-        if (length == contacts || length == impacts || length == contact_sides || length == slots) table.shrink_to_fit();
+        const bool follows = length == impacts || length == contact_sides || length == attractions || length == slots;
+        if (length == contacts || follows) table.shrink_to_fit();
     };
 #define SCREE_SHRINK(buffer, name, block, record, length) shrink(name, BufferLength::length);
     SCREE_TABLES(SCREE_SHRINK)

@@ -112,8 +112,9 @@ struct State : TableVectors {
         impulses[contact] = physics::contact_impulse_of(impulse);
         if (bounces()) impacts[contact] = physics::contact_impact_of(impulse);
     }
-    // Gives the tables of impacts that are here the length that follows from bounces(); records added are 0.
-    void fit_impacts();
+    // Gives the tables of impacts and attractions that are here the length that follows from bounces() and from cohesion;
+    // records added are 0.
+    void fit_tables();
     // For bounces() that begins between two steps: impacts of the contacts that are there already, none.
     void clear_impacts();
     bool has_copies() const { return physics::has_copies(fixed()); }

@@ -27,6 +27,7 @@ enum class BufferLength {
     contacts,
     impacts,
     contact_sides,
+    attractions,
     slots,
     hulls,
     parts,

@@ -323,6 +323,7 @@ void UsdScene::note_rest() {
         if (body.fracture) note("fracture is left out; bodies do not break");
         if (body.tyre) note("slip of tyres is left out");
         if (body.rolling_resistance > 0 || body.spinning_resistance > 0) note("rolling and spinning resistance are left out");
+        if (body.cohesion > 0) note("cohesion is left out");
         if (body.surface_velocity != vec3(0)) note("surface velocities are left out");
     }
 }

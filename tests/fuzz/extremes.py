@@ -165,7 +165,7 @@ def heap(rng, ranges):
 
 
 EXTRAS = {"velocity": 3, "angular_velocity": 3, "gravity_scale": 1, "density": 1, "friction": 1, "restitution": 1, "rolling_resistance": 1,
-          "spinning_resistance": 1, "static_friction": 1, "linear_damping": 1, "angular_damping": 1, "surface_velocity": 3}
+          "spinning_resistance": 1, "cohesion": 1, "cohesion_range": 1, "static_friction": 1, "linear_damping": 1, "angular_damping": 1, "surface_velocity": 3}
 
 
 def scene_of(rng, demos, ranges):

@@ -11,6 +11,7 @@
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
+#include "tests/world/sticky.h"
 
 using namespace scree;
 
@@ -92,6 +93,9 @@ TEST_CASE("a small world's stages run as one, with the bits of the CPU path", "[
     }
     SECTION("joints") {
         require_fused(chain(), 150);
+    }
+    SECTION("cohesion, which acts between substeps") {
+        require_fused(tests::sticky(tests::heap(60), 300), 250);
     }
     SECTION("one body, and none") {
         require_fused(tests::apart(1), 100);

@@ -37,7 +37,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const bool usual = !has.bounces && !has.tyres && !has.surfaces;
     tables.plain = usual && !has.rolls;
     tables.sums_impacts = has.bounces || state.is_watched;
-    tables.warm_starts = usual && !has.blocks && !state.is_watched;
+    tables.warm_starts = usual && !has.blocks && !has.cohesion && !state.is_watched;
     if (tables.warm_starts && !has.breaking) tables.constraints = nullptr;
     return tables;
 }

@@ -19,6 +19,7 @@
 #include "shaders/physics/collide/collide_sphere_plane.h"
 #include "shaders/physics/collide/collide_sphere_sphere.h"
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/contact/cohesion.h"
 #include "shaders/physics/contact/contact.h"
 #include "shaders/physics/contact/contact_constraint.h"
 #include "shaders/physics/contact/contact_pass.h"
@@ -28,6 +29,7 @@
 #undef bool
 
 #include "compute/cpu/simd/body_stages.h"
+#include "compute/cpu/simd/cohesion_stage.h"
 #include "compute/cpu/simd/contact_stages.h"
 #include "compute/cpu/simd/pair_stages.h"
 
@@ -41,6 +43,7 @@ const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::separate_boxes,
                                               SCREE_NAMED(SCREE_LANES)::collide_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,
+                                              SCREE_NAMED(SCREE_LANES)::attract,
                                               SCREE_NAMED(SCREE_LANES)::begin,
                                               SCREE_NAMED(SCREE_LANES)::solve,
                                               SCREE_NAMED(SCREE_LANES)::move,

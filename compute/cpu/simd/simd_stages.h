@@ -52,6 +52,8 @@ struct WideStages {
     // Constraints of contacts that have none yet (point count 0) and the first warm start (prepare_contacts). With
     // `warm_starts` of all contacts, and what they take from the last step (warm_start_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
+    // Contacts whose bodies may attract each other: adds that to the slots (apply_cohesion).
+    void (*attract)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);

@@ -305,10 +305,15 @@ private:
     }
 
     void check_surfaces() const {
-        for (std::size_t k = 0; k < saved_.surfaces.size(); ++k)
+        for (std::size_t k = 0; k < saved_.surfaces.size(); ++k) {
+            const physics::Surface one = saved_.surfaces[k];
+            require(one.cohesion >= 0 && one.cohesion <= 1e6f && one.curvature >= 0 && one.curvature <= 1e9f &&
+                        std::isfinite(one.cohesion_range),
+                    "surface", k, "has a cohesion that is out of range");
             require(saved_.surfaces[k].friction_rule <= physics::COMBINE_OVERRIDING_AVERAGE &&
                         saved_.surfaces[k].restitution_rule <= physics::COMBINE_OVERRIDING_AVERAGE,
                     "surface", k, "combines by a rule that is not known");
+        }
     }
 
     const SavedTables& saved_;

@@ -19,7 +19,7 @@ from scree.shapes import HeightField, Mesh, Plane, Shape, Vector
 
 _VECTORS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3, "surface_velocity": 3}
 _NUMBERS = frozenset({"density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
-                      "static_friction", "spinning_resistance", "restitution_threshold", "drag"})
+                      "static_friction", "spinning_resistance", "restitution_threshold", "cohesion", "cohesion_range", "drag"})
 
 
 def _count_of(columns: typing.Mapping[str, Any]) -> Optional[int]:

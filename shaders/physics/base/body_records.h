@@ -70,6 +70,10 @@ struct Surface {
     float restitution_threshold;  // m/s; < 0: Parameters.restitution_threshold
     uint friction_rule;           // COMBINE_*
     uint restitution_rule;
+    float cohesion;        // work of adhesion, J/m^2; 0: none (cohesion.h)
+    float cohesion_range;  // m; < 0: the pair's
+    float curvature;       // if cohesive, 1 over the radius of its body, 1/m; 0: flat, or of a ball, whose size tells it
+    float pad0;
 };
 // How a value of two surfaces follows; of two rules the greater counts.
 CONSTANT uint COMBINE_USUAL = 0u;

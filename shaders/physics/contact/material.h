@@ -18,6 +18,10 @@ LAW Surface plain_surface(BodyProperties properties) {
     surface.restitution_threshold = -1.0f;
     surface.friction_rule = COMBINE_USUAL;
     surface.restitution_rule = COMBINE_USUAL;
+    surface.cohesion = 0.0f;
+    surface.cohesion_range = -1.0f;
+    surface.curvature = 0.0f;
+    surface.pad0 = 0.0f;
     return surface;
 }
 

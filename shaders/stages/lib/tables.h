@@ -66,6 +66,7 @@
     X(26, contact_pairs, WordsTable, uint, contacts)       /* each contact's pair */                                          \
     X(26, contact_slots, WordsTable, uint, contact_sides)  /* of each 2 * contact + side; NONE: contacts do not move it */    \
     X(26, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */        \
+    X(26, attractions, WordsTable, float, attractions)     /* of each 2 * contact: force at a point, N; then which points */  \
     X(26, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
     X(26, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
     X(26, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
