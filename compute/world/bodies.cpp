@@ -1,5 +1,6 @@
 // World: bodies that come and go, and their handles.
 #include <algorithm>
+#include <bit>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -183,6 +184,8 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     if (filters || !in.state.filters.empty()) append(changed, editor.filter(in.scene));
     // The last body with a filter may be gone since, and with it the table.
     if (in.state.filters.empty()) std::erase_if(changed, [](const TableRange& range) { return range.table == Table::filters; });
+    // The first ones may be of other sizes, or none: each time that their number doubles.
+    if (std::bit_width(count_before) != std::bit_width(in.scene.bodies.size())) editor.choose_cell();
     in.send(changed, before);
     // What is dynamic wakes what it touches; what is not stirs nothing by itself.
     if (std::any_of(firsts.begin(), firsts.end(), [&](std::size_t i) { return in.scene.bodies[i].motion != Motion::dynamic; }))
