@@ -164,7 +164,30 @@ struct SixDof {    // each axis as given; by default free
     Axis swing_y, swing_z;
 };
 using SixDegrees [[deprecated("use SixDof")]] = SixDof;
-using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof>;
+
+enum class JointAxis { x, y, z, twist, swing_y, swing_z };  // along, then about, the axes of a joint's frame in A
+struct CoupledAxis {
+    std::size_t joint = 0;            // index of the scene's joint; no coupling
+    float factor = 1;                 // of its coordinate in the sum
+    std::optional<JointAxis> axis{};  // none: x of a slider and of a distance, the twist of others
+};
+// A coupling joins no two bodies but the axes of other joints: its coordinate is the sum of factor times coordinate of these,
+// less `offset`. Without limits, spring, motor and friction it is locked at 0: gears, a rack, a pulley, a finger that follows
+// another; with them it is a tendon. It has no a and b, anchors and frames; its break_force is that of its coordinate.
+struct Coupling {
+    std::vector<CoupledAxis> joints;  // 1 to most_coupled_axes
+    // Of the last one, in place of its factor: a polynomial's coefficients of the first power to the fourth; at most 4 joints.
+    std::vector<float> curve{};
+    std::optional<float> offset{};  // none: the sum at the start
+    Axis sum{};                     // without armature
+};
+constexpr std::size_t most_coupled_axes = 8;
+// Limits of a group of joints that share bodies or couplings, with at least one coupling.
+constexpr std::size_t most_joints_of_coupled_block = 54;  // couplings count as joints
+constexpr std::size_t most_couplings_of_block = 26;
+using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof, Coupling>;
+// The axis along or about which a joint of that kind moves, if it has one: x of a slider, distance or coupling, else twist.
+JointAxis main_axis(const JointKind& kind);
 
 constexpr std::size_t the_world = static_cast<std::size_t>(-1);  // in place of a body: the static world
 

@@ -47,7 +47,7 @@ struct Cone {             // along y, apex up; the centre of mass is a quarter o
 struct Ellipsoid {
     vec3 radii{0.5f, 0.3f, 0.4f};  // m, along x, y and z
 };
-struct HullForm;                             // compute/scene/hull.h
+struct HullForm;                             // compute/scene/meshes/hull.h
 struct Hull {                                // the convex hull of points
     std::vector<vec3> points;                // m, at least 4, not coplanar; inner and repeated points are ignored
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
@@ -123,8 +123,8 @@ struct Compound {               // several convex shapes on one rigid body
     std::vector<Part> parts;    // no planes; none: a body without a shape. The masses of overlapping parts add up
     std::vector<Skin> skins{};  // drawn in place of the parts that are skinned
 };
-struct MeshForm;  // compute/scene/mesh.h
-// How a mesh becomes convex parts (compute/scene/decomposition.h).
+struct MeshForm;  // compute/scene/meshes/mesh.h
+// How a mesh becomes convex parts (compute/scene/meshes/decomposition.h).
 struct Decomposition {
     float error = 0.02f;          // greatest distance between the surfaces, in longest extents of the mesh, 0.002 to 0.5
     std::uint32_t parts = 32;     // at most, 1 to 256; fewer have a greater error

@@ -89,7 +89,6 @@ struct BodyContact {
 using Touching [[deprecated("use BodyContact")]] = BodyContact;
 
 // A joint after the last step.
-enum class JointAxis { x, y, z, twist, swing_y, swing_z };  // along, then about, the axes of its frame in A
 struct JointState {
     vec3 force{0};         // on B, N, mean over the step; a sleeping joint keeps that of its last step awake
     vec3 torque{0};        // on B, N m
@@ -142,9 +141,6 @@ struct JointCoordinate {
     std::optional<float> coordinate{};  // m or rad
     std::optional<float> rate{};        // m/s or rad/s
 };
-
-// The axis along or about which a joint of that kind moves, if it has one: x of a slider or distance, else twist.
-JointAxis main_axis(const JointKind& kind);
 
 // A vehicle after the last step.
 struct VehicleState {

@@ -8,9 +8,9 @@
 
 namespace scree::shaders {
 
-// The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name; "count_pairs.bda" with
-// tables by buffer device address; "count_pairs.texels" and "count_pairs.bda.texels" with read-only tables as texels;
-// "box.vert" for render/box.vert. Empty for an unknown name, and without SCREE_VULKAN.
+// The SPIR-V of a shader: "count_pairs" for stages/broadphase/count_pairs.comp or the variant of that name; "count_pairs.bda"
+// with tables by buffer device address; "count_pairs.texels" and "count_pairs.bda.texels" with read-only tables as texels;
+// "box.vert" for render/bodies/box.vert. Empty for an unknown name, and without SCREE_VULKAN.
 std::span<const std::uint32_t> find(std::string_view name);
 
 // The specialisation constant VARIANT (stages/lib/features.glsl) for the stage of that name: similar stages share a

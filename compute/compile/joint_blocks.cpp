@@ -9,24 +9,35 @@
 
 #include "compute/scene/portable_math.h"
 #include "compute/tables/state.h"
-#include "shaders/physics/joint/joint_axis.h"
+#include "shaders/physics/joint/joint_coupling.h"
 
 namespace scree {
 
 namespace {
 
+static_assert(most_joints_of_coupled_block == physics::MAX_COUPLED_BLOCK && most_coupled_axes == 8);
+
 using Indices = std::vector<std::uint32_t>;
 
-// Graph of joints that share dynamic bodies.
+const Coupling* coupling_of(const Joint& joint) {
+    return std::get_if<Coupling>(&joint.kind);
+}
+
+// Graph of joints that share dynamic bodies, and of couplings with the joints that they couple.
 class Graph {
 public:
-    Graph(const Scene& scene, const std::vector<physics::BodyProperties>& properties)
-        : scene_(scene), of_body_(scene.bodies.size()) {
-        for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    template <class IsDynamic>
+    Graph(const Scene& scene, const IsDynamic& is_dynamic) : scene_(scene), of_body_(scene.bodies.size()) {
+        for (std::size_t j = 0; j < scene.joints.size(); ++j) {
             for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
-                if (body != the_world && properties[body].motion == physics::MOTION_DYNAMIC)
-                    of_body_[body].push_back(static_cast<std::uint32_t>(j));
+                if (body != the_world && is_dynamic(body)) of_body_[body].push_back(static_cast<std::uint32_t>(j));
+            const Coupling* const coupling = coupling_of(scene.joints[j]);
+            if (!coupling) continue;
+            for (const CoupledAxis& term : coupling->joints) couplings_of_[term.joint].push_back(static_cast<std::uint32_t>(j));
+        }
     }
+    Graph(const Scene& scene, const std::vector<physics::BodyProperties>& properties)
+        : Graph(scene, [&](std::size_t body) { return properties[body].motion == physics::MOTION_DYNAMIC; }) {}
 
     bool moves(std::size_t body) const { return body != the_world && !of_body_[body].empty(); }
 
@@ -50,6 +61,14 @@ public:
                 for (const std::uint32_t next : of_body_[body])
                     if (seen.insert(next).second) order.push_back(next);
             }
+            if (couplings_of_.empty()) continue;
+            if (const auto found = couplings_of_.find(order[at]); found != couplings_of_.end())
+                for (const std::uint32_t next : found->second)
+                    if (seen.insert(next).second) order.push_back(next);
+            if (const Coupling* const coupling = coupling_of(joint))
+                for (const CoupledAxis& term : coupling->joints)
+                    if (seen.insert(static_cast<std::uint32_t>(term.joint)).second)
+                        order.push_back(static_cast<std::uint32_t>(term.joint));
         }
         return order;
     }
@@ -57,6 +76,7 @@ public:
 private:
     const Scene& scene_;
     std::vector<Indices> of_body_;
+    std::map<std::size_t, Indices> couplings_of_;  // by joint
 };
 
 struct Eliminated {
@@ -65,8 +85,8 @@ struct Eliminated {
 };
 
 // Minimum degree order; empty if a joint has too many neighbours or the block is too large.
-std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints) {
-    if (joints.size() > most_joints_of_block) return {};
+std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints, std::size_t most) {
+    if (joints.size() > most) return {};
     const std::set<std::uint32_t> inside(joints.begin(), joints.end());
     std::map<std::uint32_t, std::set<std::uint32_t>> left;
     for (const std::uint32_t joint : joints)
@@ -91,15 +111,36 @@ std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints
 }
 
 // Cuts joints, given in breadth-first order, in halves until each fits a block.
-void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Eliminated>>& blocks) {
-    std::vector<Eliminated> order = elimination_of(graph, joints);
+void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Eliminated>>& blocks,
+         std::size_t most = most_joints_of_block) {
+    std::vector<Eliminated> order = elimination_of(graph, joints, most);
     if (!order.empty()) {
         blocks.push_back(std::move(order));
         return;
     }
     const auto middle = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / 2);
-    cut(graph, {joints.begin(), middle}, blocks);
-    cut(graph, {middle, joints.end()}, blocks);
+    cut(graph, {joints.begin(), middle}, blocks, most);
+    cut(graph, {middle, joints.end()}, blocks, most);
+}
+
+// The blocks of joints and of the couplings among them, which come behind the joints of the block of their first one.
+std::vector<std::vector<Eliminated>> cut_with_couplings(const Scene& scene, const Graph& graph, const Indices& whole) {
+    Indices joints, couplings;
+    for (const std::uint32_t j : whole) (coupling_of(scene.joints[j]) ? couplings : joints).push_back(j);
+    std::vector<std::vector<Eliminated>> made;
+    if (couplings.empty()) {
+        cut(graph, joints, made);
+        return made;
+    }
+    std::sort(couplings.begin(), couplings.end());
+    cut(graph, joints, made, most_joints_of_coupled_block - std::min(couplings.size(), most_joints_of_coupled_block - 1));
+    for (const std::uint32_t coupling : couplings) {
+        const std::size_t first = coupling_of(scene.joints[coupling])->joints.front().joint;
+        for (std::vector<Eliminated>& order : made)
+            if (std::any_of(order.begin(), order.end(), [&](const Eliminated& each) { return each.joint == first; }))
+                order.push_back({coupling, {}});
+    }
+    return made;
 }
 
 struct Block {
@@ -124,8 +165,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Graph& graph) {
         // From an end, so that a chain is cut into halves.
         const Indices whole = graph.reached_from(graph.reached_from(j).back());
         for (const std::uint32_t joint : whole) done[joint] = true;
-        std::vector<std::vector<Eliminated>> made;
-        cut(graph, whole, made);
+        std::vector<std::vector<Eliminated>> made = cut_with_couplings(scene, graph, whole);
         const bool is_cut = shared_bodies(scene, graph, made) > most_shared_bodies;
         for (std::vector<Eliminated>& order : made) blocks.push_back({std::move(order), is_cut});
     }
@@ -162,6 +202,35 @@ physics::Joint record_of(const Joint& joint, physics::uint flags) {
     return record;
 }
 
+// The axis of a joint's record that a term of a coupling names.
+physics::uint axis_of_term(const Joint& joint, const CoupledAxis& term) {
+    const std::size_t axis = static_cast<std::size_t>(term.axis.value_or(main_axis(joint.kind)));
+    return static_cast<physics::uint>(axes_of_kind(joint.kind).in_record(axis));
+}
+
+// A coupling with a joint of another block has no terms, and does nothing (check_couplings).
+void take_terms(const Scene& scene, const Coupling& coupling, const physics::JointBlock& block, JointTables& tables,
+                physics::Joint& record) {
+    const bool curved = !coupling.curve.empty();
+    const std::size_t count = std::min(coupling.joints.size(), curved ? std::size_t{4} : most_coupled_axes);
+    record.frame_a = record.frame_b = vec4(0);
+    for (std::size_t t = 0; t < count; ++t) {
+        const CoupledAxis& term = coupling.joints[t];
+        const std::uint32_t of = tables.record_of[term.joint];
+        if (of < block.first_joint || of - block.first_joint >= block.joints) return;
+        const physics::uint axis = axis_of_term(scene.joints[term.joint], term);
+        tables.joints[of].axes[axis].mode |= physics::AXIS_COUPLED;
+        record.fill_in_of[t] = 8 * of + axis;
+    }
+    if (curved)
+        for (std::size_t k = 0; k < std::min<std::size_t>(coupling.curve.size(), 4); ++k)
+            record.frame_b[static_cast<int>(k)] = coupling.curve[k];
+    for (std::size_t t = 0; t < count; ++t)
+        (t < 4 ? record.frame_a : record.frame_b)[static_cast<int>(t % 4)] =
+            curved && t + 1 == count ? 0 : coupling.joints[t].factor;
+    record.flags |= static_cast<physics::uint>(count) << physics::COUPLING_TERMS_SHIFT;
+}
+
 // Whether B can swing by half a turn in any direction.
 bool swings_over(const physics::JointAxis& y, const physics::JointAxis& z, physics::uint flags) {
     const auto is = [](const physics::JointAxis& axis, physics::uint mode) { return (axis.mode & mode) != 0; };
@@ -180,6 +249,7 @@ void append(const Scene& scene, const Graph& graph, const Block& made, JointTabl
     for (const Eliminated& eliminated : made.order) {
         const Joint& joint = scene.joints[eliminated.joint];
         tables.record_of[eliminated.joint] = block.first_joint + block.joints++;
+        if (coupling_of(joint)) ++block.couplings;
         for (const std::size_t body : {joint.a, joint.b}) {
             if (!graph.moves(body) || !member_of.try_emplace(body, block.first_body + block.bodies).second) continue;
             physics::BlockBody member{};
@@ -197,6 +267,7 @@ void append(const Scene& scene, const Graph& graph, const Block& made, JointTabl
         record.block_body_b = block_body(joint.b);
         for (const std::uint32_t other : eliminated.fill_in) record.fill_in_of[record.fill_in++] = tables.record_of[other];
         std::sort(record.fill_in_of, record.fill_in_of + record.fill_in);
+        if (const Coupling* const coupling = coupling_of(joint)) take_terms(scene, *coupling, block, tables, record);
         tables.joints.push_back(record);
     }
     tables.blocks.push_back(block);
@@ -232,6 +303,13 @@ JointAxes axes_of_kind(const JointKind& kind) {
         // A cone of half a turn holds nothing back.
         if (static_cast<double>(cone->swing) < std::numbers::pi - 1e-6) made.axes[4].limits = Limits{-unlimited, cone->swing};
         made.axes[3].friction = cone->friction;
+    } else if (const auto* coupling = std::get_if<Coupling>(&kind)) {
+        made.flags = physics::JOINT_COUPLES | (coupling->curve.empty() ? 0u : physics::JOINT_CURVED);
+        for (std::size_t k = 0; k < 3; ++k) made.axes[k] = {};
+        made.axes[0] = coupling->sum;
+        const Axis& sum = coupling->sum;
+        if (!sum.limits && !sum.spring && !sum.motor && sum.friction == 0) made.axes[0] = locked;
+        return made;
     } else if (const auto* six = std::get_if<SixDof>(&kind)) {
         const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
         const auto turns = [&](std::size_t k) { return (axis_record(all[k]).mode & physics::AXIS_LOCKED) == 0; };
@@ -297,8 +375,14 @@ physics::JointAxis axis_record(const JointAxes& axes, std::size_t k) {
     return record;
 }
 void set_axis_record(physics::Joint& joint, const JointAxes& axes, std::size_t k) {
+    const physics::uint coupled = joint.axes[k].mode & physics::AXIS_COUPLED;
     joint.axes[k] = axis_record(axes, k);
+    joint.axes[k].mode |= coupled;
     if (joint.axes[k].mode != 0 && (joint.flags & physics::JOINT_CUT) != 0) joint.axes[k].mode |= physics::AXIS_CUT;
+    if ((joint.flags & physics::JOINT_COUPLES) == 0 || k != 0) return;
+    constexpr physics::uint whole = 255u << physics::COUPLING_MODE_SHIFT;
+    joint.flags = (joint.flags & ~whole) | joint.axes[0].mode << physics::COUPLING_MODE_SHIFT;
+    joint.axes[0].mode = 0;
 }
 physics::JointRotor rotor_record(const Axis& axis) {
     return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, 0, 0, 0};
@@ -364,6 +448,7 @@ float first_turns(const State& state, const physics::Joint& joint, std::optional
 }
 
 std::optional<float> angle_to_tell(const State& state, const physics::Joint& joint) {
+    if ((joint.flags & physics::JOINT_COUPLES) != 0) return std::nullopt;
     const physics::JointConfiguration at = configuration_of(state, joint);
     if (!physics::counts_turns(joint.flags, joint.axes[3])) return std::nullopt;
     if (physics::turns_between(at.twist, at.turned) == first_turns(state, joint, std::nullopt)) return std::nullopt;
@@ -384,6 +469,73 @@ float speed_of_axis(const State& state, const physics::Joint& joint, physics::ui
     return row_speed(row, is_linear(k), v);
 }
 
+CouplingState coupling_state(const State& state, const physics::Joint& record) {
+    using namespace physics;
+    CoupledSum sum{};
+    CouplingState found;
+    const uint count = terms_of_coupling(record.flags);
+    for (uint t = 0; t < count; ++t) {
+        const physics::Joint& joint = state.joints[joint_of_term(record.fill_in_of[t])];
+        const uint k = axis_of_term(record.fill_in_of[t]);
+        const JointConfiguration at = configuration_of(state, joint);
+        JointRow row = is_linear(k) ? linear_row({}, at, static_cast<int>(k), joint.flags, {}, 0)
+                                    : angular_row({}, at, static_cast<int>(k) - 3, joint.flags, {}, 0);
+        const float turns = turns_of_term(k, row.coordinate, at.turned), speed = speed_of_axis(state, joint, k);
+        float factor = (t < 4 ? record.frame_a : record.frame_b)[static_cast<int>(t % 4)];
+        if ((record.flags & JOINT_CURVED) != 0 && t + 1 == count) {
+            const CurvePoint point = point_of_curve(record.frame_b, with_turns(row.coordinate, turns));
+            sum = with_curve(sum, point, row, speed, 0);
+            factor = point.slope;
+        } else {
+            sum = with_term(sum, factor, row, turns);
+        }
+        found.rate = with_part(found.rate, factor, speed);
+    }
+    found.coordinate = row_of_coupling({}, sum, record.anchor_a.x).coordinate;
+    return found;
+}
+
+void start_joints(State& state, const Scene& scene, std::size_t first, std::size_t last) {
+    for (std::size_t j = first; j < last; ++j) start_joint(state, state.joints[state.joint_records[j]], scene.joints[j]);
+    for (std::size_t j = first; j < last; ++j) start_coupling(state, state.joints[state.joint_records[j]], scene.joints[j]);
+}
+void start_coupling(const State& state, physics::Joint& record, const Joint& joint) {
+    const Coupling* const coupling = coupling_of(joint);
+    if (!coupling) return;
+    record.anchor_a.x = 0;
+    record.anchor_a.x = coupling->offset ? *coupling->offset : coupling_state(state, record).coordinate;
+}
+
+void check_couplings(const Scene& scene) {
+    const auto couples = [](const Joint& joint) { return coupling_of(joint) != nullptr; };
+    if (std::none_of(scene.joints.begin(), scene.joints.end(), couples)) return;
+    const Graph graph(scene, [&](std::size_t body) { return scene.bodies[body].motion == Motion::dynamic; });
+    std::vector<std::size_t> block_of(scene.joints.size());
+    const std::vector<Block> blocks = blocks_of(scene, graph);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        for (const Eliminated& each : blocks[i].order) block_of[each.joint] = i;
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+        const Coupling* const coupling = coupling_of(scene.joints[j]);
+        if (!coupling) continue;
+        const bool together = std::all_of(coupling->joints.begin(), coupling->joints.end(), [&](const CoupledAxis& term) {
+            return block_of[term.joint] == block_of[coupling->joints.front().joint];
+        });
+        const std::vector<Eliminated>& order = blocks[block_of[j]].order;
+        const auto couplings = static_cast<std::size_t>(
+            std::count_if(order.begin(), order.end(), [&](const Eliminated& each) { return couples(scene.joints[each.joint]); }));
+        if (together && order.size() <= most_joints_of_coupled_block && couplings <= most_couplings_of_block) continue;
+        throw SceneError("/joints/" + std::to_string(j) + "/kind/coupling",
+                         "its joints cannot be solved together: with all that bodies and couplings connect with them there are "
+                         "more than " +
+                             std::to_string(most_joints_of_coupled_block) + " joints or " +
+                             std::to_string(most_couplings_of_block) +
+                             " couplings, or a body has more than nine joints; couple fewer, or make bodies fixed");
+    }
+}
+
+void start_joint(const State& state, physics::Joint& joint, const Joint& of) {
+    if ((joint.flags & physics::JOINT_COUPLES) == 0) start_joint(state, joint, of.angle);
+}
 void start_joint(const State& state, physics::Joint& joint, std::optional<float> angle) {
     joint.twist = physics::with_turns(configuration_of(state, joint).twist, first_turns(state, joint, angle));
     for (physics::uint k = 0; k < 6; ++k)

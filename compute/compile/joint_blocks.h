@@ -59,7 +59,19 @@ float first_turns(const State& state, const physics::Joint& joint, std::optional
 std::optional<float> angle_to_tell(const State& state, const physics::Joint& joint);
 // J v of axis k at the present poses and velocities.
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k);
-// Lets a joint begin at the present poses and velocities: its turns, and its rotors with their axes.
+// Lets a joint begin at the present poses and velocities: its turns, and its rotors with their axes. A coupling begins after the
+// joints that it couples: its offset, if the scene gives none.
 void start_joint(const State& state, physics::Joint& joint, std::optional<float> angle);
+void start_joint(const State& state, physics::Joint& joint, const Joint& of);
+void start_coupling(const State& state, physics::Joint& record, const Joint& joint);
+void start_joints(State& state, const Scene& scene, std::size_t first, std::size_t last);  // of the scene, from `first`
+
+// The coordinate of a coupling and its rate at the present poses and velocities.
+struct CouplingState {
+    float coordinate = 0, rate = 0;
+};
+CouplingState coupling_state(const State& state, const physics::Joint& record);
+// Of a scene whose joints are checked. Throws SceneError for a coupling whose joints no block has together.
+void check_couplings(const Scene& scene);
 
 }  // namespace scree

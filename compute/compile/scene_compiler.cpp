@@ -87,6 +87,7 @@ physics::uint sleep_steps_of(const Settings& settings) {
 
 void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies,
                             std::uint32_t ranks) {
+    check_couplings(scene);
     shares_meshes_ = copies > 1;
     std::vector<physics::BodyProperties>& properties = state_.properties;
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
@@ -122,8 +123,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.strains[i] = start_strain_of(scene.bodies[i], properties[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
-    for (std::size_t j = 0; j < scene.joints.size(); ++j)
-        start_joint(state_, state_.joints[state_.joint_records[j]], scene.joints[j].angle);
+    start_joints(state_, scene, 0, scene.joints.size());
     state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-struct MeshForm;  // compute/scene/mesh.h
+struct MeshForm;  // compute/scene/meshes/mesh.h
 
 // Parameters::sleep_steps.
 physics::uint sleep_steps_of(const Settings& settings);

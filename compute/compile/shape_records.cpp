@@ -7,9 +7,9 @@
 
 #include "compute/compile/scene_compiler.h"
 #include "compute/scene/fracture.h"
-#include "compute/scene/hull.h"
-#include "compute/scene/hull_cells.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/hull_cells.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene/shape_geometry.h"
 #include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/grid.h"

@@ -347,9 +347,14 @@ TableRanges StateEditor::needed_to_rejoin(const Scene& scene, std::span<const st
     append(needed, vehicle_ranges(state_));
     for (std::size_t j = 0; j < scene.joints.size(); ++j) {  // new joints begin at their poses
         if (j < state_.joint_records.size() && std::find(fresh.begin(), fresh.end(), j) == fresh.end()) continue;
-        for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
-            if (body != the_world)
-                for (const Table table : {Table::poses, Table::velocities}) needed.push_back({table, state_.row_of(body), 1});
+        const auto need = [&](const Joint& joint) {
+            for (const std::size_t body : {joint.a, joint.b})
+                if (body != the_world)
+                    for (const Table table : {Table::poses, Table::velocities}) needed.push_back({table, state_.row_of(body), 1});
+        };
+        need(scene.joints[j]);
+        if (const auto* coupling = std::get_if<Coupling>(&scene.joints[j].kind))
+            for (const CoupledAxis& term : coupling->joints) need(scene.joints[term.joint]);
     }
     if (state_.changes_motions()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // which bodies exist
     return needed;
@@ -384,7 +389,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     for (std::size_t j = 0; j < state_.joint_records.size(); ++j) {
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         if (j >= before.size() || std::find(fresh.begin(), fresh.end(), j) != fresh.end()) {
-            start_joint(state_, now, scene.joints[j].angle);
+            start_joint(state_, now, scene.joints[j]);
             continue;
         }
         const physics::Joint& was = before[j];
@@ -400,7 +405,12 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
         now.max_force = was.max_force;
         now.torque = was.torque;
         now.max_torque = was.max_torque;
+        if ((now.flags & physics::JOINT_COUPLES) != 0) now.anchor_a.x = was.anchor_a.x;
+        if ((now.flags & physics::JOINT_CURVED) != 0) now.frame_a = was.frame_a;
     }
+    for (std::size_t j = 0; j < state_.joint_records.size(); ++j)
+        if (j >= before.size() || std::find(fresh.begin(), fresh.end(), j) != fresh.end())
+            start_coupling(state_, state_.joints[state_.joint_records[j]], scene.joints[j]);
     for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
         const std::vector<Wheel>& wheels = scene.vehicles[v].wheels;
         for (std::size_t k = 0; k < wheels.size(); ++k) state_.vehicles[v].wheel[k].joint = state_.joint_records[wheels[k].joint];

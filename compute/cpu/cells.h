@@ -30,6 +30,7 @@ template <typename A, typename B>
 bool overlap(const A& a, const B& b) {
     using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
     using Halves [[gnu::vector_size(16)]] = std::uint64_t;
+    static_assert(sizeof(A) >= 2 * sizeof(Four) && sizeof(B) >= 2 * sizeof(Four));
     Four lower_a, upper_a, lower_b, upper_b;
     std::memcpy(&lower_a, &a.lower, sizeof lower_a);
     std::memcpy(&upper_a, &a.upper, sizeof upper_a);

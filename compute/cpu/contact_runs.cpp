@@ -164,7 +164,7 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
         own.groups += (run.first / lanes + k) * lanes * words_of_contact;
         own.unloaded += run.first / lanes + k;
         if (!state.gravities.empty())
-            own.parameters = reinterpret_cast<const std::uint32_t*>(&state.scratch.parameters_of_copies[run.copy]);
+            own.parameters = reinterpret_cast<std::uint32_t*>(&state.scratch.parameters_of_copies[run.copy]);
         const std::size_t begin = begun_before(run, state.passed_first()), end = begun_before(run, state.passed_last());
         share_out(end - begin, [&](std::size_t first, std::size_t last) {
             pass(own, (begin + first) * lanes, std::min<std::size_t>((begin + last) * lanes, run.last - run.first));

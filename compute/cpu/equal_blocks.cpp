@@ -25,7 +25,7 @@ std::size_t EqualBlocks::take(State& state, std::size_t at, std::size_t last, in
     return at;
 }
 
-BlockTables EqualBlocks::begin(State& state) {
+TableWords EqualBlocks::begin(State& state) {
     group_.count = blocks_.size();
     for (std::size_t lane = 0; lane < most_equal_blocks; ++lane) {
         const physics::JointBlock& block = state.joint_blocks[blocks_[lane < group_.count ? lane : 0]];
@@ -37,9 +37,7 @@ BlockTables EqualBlocks::begin(State& state) {
     if (bytes_.size() < room) bytes_.resize(room);
     void* aligned = bytes_.data();
     room_ = static_cast<std::byte*>(std::align(alignment, room - alignment, aligned, room));
-    const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
-    return {words(state.parameters), words(state.poses),  words(state.velocities),   words(state.masses),
-            words(state.slot_ends),  words(state.joints), words(state.block_bodies), words(state.slots)};
+    return state.words();
 }
 void EqualBlocks::end(State& state) const {
     for (std::size_t lane = 0; lane < group_.count; ++lane) state.joint_blocks[blocks_[lane]].unsettled = group_.unsettled[lane];
@@ -47,7 +45,7 @@ void EqualBlocks::end(State& state) const {
 
 bool EqualBlocks::solve(State& state) {
     if (!stages_) return false;
-    const BlockTables tables = begin(state);
+    const TableWords tables = begin(state);
     if (!stages_->solve(tables, group_, room_)) return false;
     end(state);
     return true;
@@ -57,7 +55,7 @@ bool EqualBlocks::relax(State& state, bool last) {
     if (!stages_) return false;
     for (std::size_t lane = 0; lane < most_equal_blocks; ++lane)
         group_.struck[lane] = JointBlock(state, blocks_[lane < blocks_.size() ? lane : 0]).struck();
-    const BlockTables tables = begin(state);
+    const TableWords tables = begin(state);
     if (!stages_->relax(tables, group_, room_, last)) return false;
     end(state);
     return true;

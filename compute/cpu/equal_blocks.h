@@ -25,7 +25,7 @@ public:
     bool relax(State& state, bool last);
 
 private:
-    BlockTables begin(State& state);
+    TableWords begin(State& state);
     void end(State& state) const;
 
     std::vector<std::uint32_t> blocks_;

@@ -108,6 +108,7 @@ void JointBlock::describe(JointRoom& room) {
 }
 
 void JointBlock::place(Joint& joint) {
+    if ((joint.flags & physics::JOINT_COUPLES) != 0) return;
     const physics::JointConfiguration at = configuration_of(joint, pose(joint.a), pose(joint.b));
     joint.twist = at.turned;
     const physics::VelocityPair v = speeds(joint);
@@ -174,7 +175,8 @@ vec3 JointBlock::impulse_of(const Joint& joint, physics::uint from) {
 void JointBlock::note_pressing() {
     for (BlockBody& member : members_) member.normal_sum = 0;
     for_each_whole([&](Joint& joint) {
-        const float normal_impulse = physics::length3(impulse_of(joint, 0));
+        float normal_impulse = physics::length3(impulse_of(joint, 0));
+        if (coupled()) normal_impulse = with_couplings(normal_impulse, joint);
         for (const physics::uint block_body : {joint.block_body_a, joint.block_body_b})
             if (block_body != NONE) all_bodies_[block_body].normal_sum += normal_impulse;
     });
@@ -183,6 +185,7 @@ void JointBlock::note_pressing() {
 // ---- rounds
 // Their laws take the parameters by value: [[gnu::flatten]] spares a copy of half a kilobyte a call.
 void JointBlock::solve(bool biased) {
+    if (coupled()) return solve_coupled(biased);
     for (Joint& joint : joints_) joint.solved_axes = 0;
     bool others = true;
     for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
@@ -205,11 +208,10 @@ void JointBlock::speeds_of_rows(const Joint& joint, JointLanes& found) const {
     for (physics::uint k = 0; k < 6; ++k) found[k] = physics::row_speed(joint.rows[k], physics::is_linear(k), v);
 }
 
-// Chooses the axes that are unknowns; the impulses of the others are given and applied at once.
-[[gnu::flatten]] void JointBlock::apply_given(Joint& joint, bool biased) {
+// Chooses the axes that are unknowns; the impulses of the others are given. Returns those that are not 0.
+[[gnu::flatten]] physics::uint JointBlock::choose_given(Joint& joint, bool biased, JointLanes& given) {
     const WideJoint* const lanes = wide(joint);
     const physics::VelocityPair before{speed(joint.a, NONE), speed(joint.b, NONE)};
-    JointLanes given{};
     physics::uint unknowns = 0, pushed = 0;
     for_each_axis(joint, [&](physics::uint k, const physics::JointAxis& axis, JointRow& row) {
         const physics::uint active_flags = physics::active_set_of(joint.active_set, k);
@@ -220,6 +222,12 @@ void JointBlock::speeds_of_rows(const Joint& joint, JointLanes& found) const {
         if (given[k] != 0) pushed |= 1u << k;
     });
     joint.solved_axes = unknowns;
+    return pushed;
+}
+// And applies them at once.
+void JointBlock::apply_given(Joint& joint, bool biased) {
+    JointLanes given{};
+    const physics::uint pushed = choose_given(joint, biased, given);
     if (pushed != 0) push(joint, pushed, given);
 }
 

@@ -4,15 +4,26 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/contact/contact_solver.h"
-#include "shaders/physics/joint/joint_block.h"
+#include "shaders/physics/joint/joint_coupling.h"
 
 namespace scree::reference {
+
+// Scratch of a pass over a block with couplings, for each of its joints. A joint uses the first two members: the impulses of its
+// rows, couplings included, and their axes. A coupling uses the others: its equation, whose column is by row, 6 joint + axis.
+struct CoupledJoint {
+    JointLanes impulses;
+    physics::uint axes;
+    bool unknown;
+    float solution, compliance, inverse_pivot;
+    float column[6 * physics::MAX_COUPLED_BLOCK];
+};
 
 // Room for the equations of blocks, reused by one thread.
 struct JointRoom {
@@ -20,6 +31,7 @@ struct JointRoom {
     std::vector<WideJoint> joints;          // of several blocks
     std::vector<JointColumns> tiles;        // of one block
     std::vector<physics::JointEquations> equations;
+    std::vector<CoupledJoint> coupled;  // by joint of a block with couplings
 };
 
 class JointBlock {
@@ -63,11 +75,15 @@ public:
     void solve(bool biased);
     // The whole bodies' velocity changes by the impulses handed out.
     void gather(bool warms) {
+        if (coupled())
+            return gather_coupled([&](const JointRow& row, const physics::JointRotor& rotor) {
+                return physics::handed_impulse(row, rotor, warms);
+            });
         gather_by(
             [&](const JointRow& row, const physics::JointRotor& rotor) { return physics::handed_impulse(row, rotor, warms); });
     }
     void gather_warm_start() {
-        gather_by(physics::row_impulse);
+        coupled() ? gather_coupled(physics::row_impulse) : gather_by(physics::row_impulse);
         for_each_whole([](Joint& joint) {
             for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
                 rotor = physics::rotor_slowed(rotor, physics::impulse_of_rotor(joint.rows[k], rotor));
@@ -96,6 +112,11 @@ public:
         for (JointRow& row : joint.rows) row = physics::torn(row);
         for (physics::JointRotor& rotor : joint.rotors) rotor = physics::torn_rotor(rotor);
     }
+    // ---- couplings, the last joints of the block (coupled_block.cpp). Such a block is solved in plain loops.
+    bool coupled() const { return block_.couplings != 0; }
+    void place_couplings();                 // after place_rows()
+    void commit_couplings(bool with_load);  // with their impulse added to the load
+
     // As a step begins, sets the speeds of rotors whose bodies do not go on as they did. After place_rows().
     void take_rotor_speeds();
 
@@ -160,8 +181,30 @@ private:
         });
     }
 
+    // ---- couplings
+    std::span<Joint> couplings() const { return joints_.last(block_.couplings); }
+    bool acts(const Joint& coupling) const;  // neither it nor a joint of it has broken, and a body can move
+    template <class Visit>
+    void for_each_coupling(const Visit& visit) {
+        for (Joint& coupling : couplings())
+            if (acts(coupling)) visit(coupling);
+    }
+    CoupledJoint& coupled(const Joint& joint) const { return room_->coupled[static_cast<std::size_t>(&joint - joints_.data())]; }
+    void gather_coupled(const std::function<float(const JointRow&, const physics::JointRotor&)>& impulse);
+    void push_coupled();
+    float with_couplings(float normal_impulse, const Joint& joint);  // those that push along the joint
+    void add_to_terms(const Joint& coupling, float impulse);
+    float speed_of_coupling(const Joint& coupling, bool before) const;
+    float coupled_entry(const Joint& joint, physics::uint k, const Joint& coupling) const;
+    float entry_between(const Joint& coupling, const Joint& other) const;
+    void solve_coupled(bool biased);
+    void solve_coupled_equations();
+    void solve_border();
+    bool other_bounds_of_coupling(Joint& coupling, bool biased, bool settling);
+
     // ---- a round
     void speeds_of_rows(const Joint& joint, JointLanes& found) const;
+    physics::uint choose_given(Joint& joint, bool biased, JointLanes& given);
     void apply_given(Joint& joint, bool biased);
     void demand(Joint& joint, bool biased);
     void solve_equations();

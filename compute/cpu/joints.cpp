@@ -77,15 +77,20 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
     const std::size_t cuts = groups.cuts.size() - 1, parts = parts_of(cuts, threads);
     threads.for_each(parts, [&](std::size_t part) {
         thread_local EqualBlocks equal;
-        thread_local std::vector<std::uint32_t> single;
+        thread_local std::vector<std::uint32_t> single, coupled;
         single.clear();
+        coupled.clear();
         std::size_t at = groups.cuts[part * cuts / parts];
         const std::size_t last = groups.cuts[(part + 1) * cuts / parts];
         while (at < last) {
             at = equal.take(state, at, last, threads.lanes());
-            if (!solve_equal(equal)) single.insert(single.end(), equal.blocks().begin(), equal.blocks().end());
+            if (!equal.blocks().empty() && state.joint_blocks[equal.blocks().front()].couplings != 0)
+                coupled.insert(coupled.end(), equal.blocks().begin(), equal.blocks().end());
+            else if (!solve_equal(equal))
+                single.insert(single.end(), equal.blocks().begin(), equal.blocks().end());
         }
         pass_singly(state, threads.lanes(), single, begin, finish);
+        pass_singly(state, 1, coupled, begin, finish);
     });
 }
 
@@ -236,6 +241,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
     const auto finish = [](JointBlock& block) {
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.take_rotor_speeds();
+        if (block.coupled()) block.place_couplings();
         block.gather_warm_start();
         block.write_deltas(1, true);
     };
@@ -248,6 +254,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
         block.solve(true);
         block.gather(/* warms */ false);
         block.for_each_whole([](Joint& joint) { JointBlock::commit(joint, /* warms */ false); });
+        if (block.coupled()) block.commit_couplings(/* with_load */ false);
         block.write_deltas(0, false);
     };
     pass_over_blocks(state, threads, begin, finish, [&](EqualBlocks& equal) { return equal.solve(state); });
@@ -273,6 +280,7 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.solve(false);
         const bool warms = !last && !block.struck();
         block.gather(warms);
+        if (block.coupled()) block.commit_couplings(/* with_load */ true);
         block.for_each_whole([&](Joint& joint) {
             JointBlock::commit(joint, warms);
             joint.force += JointBlock::impulse_of(joint, 0);

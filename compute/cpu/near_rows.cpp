@@ -38,10 +38,10 @@ void draw_boxes(State& state, const Threads& threads) {
     threads.for_each(near.boxes.size(), [&](std::size_t i) {
         const physics::Bounds& bounds = state.bounds[i];
         const physics::vec3 margin(margin_of(state, level_of(state, i)));
-        const NearRows::Box box{bounds.lower - margin, 0, bounds.upper + margin, 0};
+        const NearRows::Box box{bounds.lower - margin, bounds.upper + margin};
         const bool has_box =
             in_grid(state, i) && glm::all(glm::greaterThan(box.lower, -far)) && glm::all(glm::lessThan(box.upper, far));
-        near.boxes[i] = has_box ? box : NearRows::Box{physics::vec3(1), 0, physics::vec3(-1), 0};
+        near.boxes[i] = has_box ? box : NearRows::Box{physics::vec3(1), physics::vec3(-1)};
     });
 }
 

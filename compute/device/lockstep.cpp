@@ -9,7 +9,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/scene/copies.h"
 #include "compute/statistics.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/states/state_bytes.h"
 
 namespace scree {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <unordered_set>
 
 #include "compute/distributed/packing.h"
@@ -81,6 +82,14 @@ void Ownership::group(const State& state) {
             if (!moves(joint.a) || !moves(joint.b)) continue;
             const std::uint32_t a = root(state.id_of(joint.a)), b = root(state.id_of(joint.b));
             parent[std::max(a, b)] = std::min(a, b);
+        }
+        if (block.couplings == 0) continue;  // else no joint may connect its bodies
+        std::optional<std::uint32_t> first;
+        for (std::uint32_t m = block.first_body; m < block.first_body + block.bodies; ++m) {
+            if (!moves(state.block_bodies[m].body)) continue;
+            const std::uint32_t id = root(state.id_of(state.block_bodies[m].body)), other = root(first.value_or(id));
+            first = id;
+            parent[std::max(id, other)] = std::min(id, other);
         }
     }
     for (std::uint32_t id = 0; id < n; ++id) parent[id] = root(id);

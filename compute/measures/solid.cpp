@@ -10,7 +10,7 @@
 
 #include "compute/measures/ball_in_box.h"
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/shape_geometry.h"
 
 namespace scree {

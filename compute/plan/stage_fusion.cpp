@@ -84,7 +84,7 @@ std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size
     return times;
 }
 
-// push.pass of shaders/stages/substeps.comp: `part` of `whole` substeps, after `before`.
+// push.pass of shaders/stages/contacts/substeps.comp: `part` of `whole` substeps, after `before`.
 std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
     return before | part << 8 | whole << 16;
 }
@@ -124,55 +124,120 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
     return stages;
 }
 
+namespace {
+
+// Rounds of the loops over the terms of a coupling.
+constexpr std::uint32_t term_rounds = most_coupled_axes + 1;
+
+// Of the couplings of a block (shaders/stages/lib/pass_couplings.glsl): choosing, entries of the columns, their elimination by
+// each joint, by each other, and what is left to the joints.
+std::uint32_t coupled_rounds_of(std::span<const physics::Joint> joints, const physics::JointBlock& block, std::uint32_t threads) {
+    const std::uint32_t couplings = block.couplings, inner = block.joints - couplings;
+    if (couplings == 0) return 0;
+    const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
+    std::uint32_t column = 0;
+    for (const physics::Joint& joint : joints.subspan(block.first_joint, inner))
+        column += axis_rounds + 6 * (axis_rounds + joint.fill_in * axis_rounds);
+    std::uint32_t pairs = 0;  // of couplings, by rounds of the threads
+    for (std::uint32_t g = 0; g < couplings; ++g) pairs += shared(g + 1);
+    return 8 * term_rounds * couplings + term_rounds * couplings * shared(6 * inner) + column * shared(couplings) +
+           pairs * (term_rounds * term_rounds + axis_rounds * inner) + couplings * couplings * couplings / 4 +
+           couplings * (axis_rounds * inner + 2 * couplings) + couplings * shared(6 * inner);
+}
+
+// Loop rounds of a pass over a block.
+struct BlockRounds {
+    std::uint32_t most = 0;  // in each of the pass's rounds
+    std::uint32_t once = 0;
+    void take(const BlockRounds& other) {
+        most = std::max(most, other.most);
+        once = std::max(once, other.once);
+    }
+    bool fit() const { return most + once <= most_joint_rounds; }
+    std::uint32_t at_once() const {
+        return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u,
+                          physics::JOINT_ROUNDS);
+    }
+};
+BlockRounds rounds_of(std::span<const physics::Joint> joints, const physics::JointBlock& block, std::uint32_t threads) {
+    const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
+    std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
+    for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
+        const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
+        each += 4 * axis_rounds;                                // pushes to both bodies, twice
+        each += own_rounds;                                     // its own rows
+        each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
+        each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
+        each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
+    }
+    each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
+    each += coupled_rounds_of(joints, block, threads);
+    return {each, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints) +
+                      4 * term_rounds * block.couplings * block.joints};
+}
+
+}  // namespace
+
 JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks,
                                  std::uint32_t subgroup) {
     constexpr std::uint32_t most_threads = 128, few_threads = 32;
     JointDispatches found;
     const std::uint32_t threads = subgroup > 0 ? subgroup : most_threads;
-    std::uint32_t most = 0;  // loop rounds of a round of a block
-    std::uint32_t once = 0;
+    BlockRounds of_large, of_coupled, of_coupled_singly;
     for (const physics::JointBlock& block : blocks) {
-        if (block.joints <= physics::SMALL_BLOCK_JOINTS) {
+        if (block.couplings != 0) {
+            found.threads_a_coupled_block = threads;
+            of_coupled.take(rounds_of(joints, block, threads));
+            of_coupled_singly.take(rounds_of(joints, block, 1));
+        } else if (block.joints <= physics::SMALL_BLOCK_JOINTS) {
             found.threads_a_small_block = subgroup > 0 ? 1 : few_threads;
-            continue;
+        } else {
+            found.threads_a_block = threads;
+            of_large.take(rounds_of(joints, block, threads));
         }
-        found.threads_a_block = threads;
-        const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
-        std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
-        for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
-            const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
-            each += 4 * axis_rounds;                                // pushes to both bodies, twice
-            each += own_rounds;                                     // its own rows
-            each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
-            each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
-            each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
-        }
-        each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
-        most = std::max(most, each);
-        once = std::max(once, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints));
     }
-    found.rounds_at_once =
-        std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u, physics::JOINT_ROUNDS);
+    found.rounds_at_once = of_large.at_once();
+    const bool singly = subgroup > 0 && found.threads_a_coupled_block > 0 && of_coupled_singly.fit();
+    if (singly) found.threads_a_coupled_block = 1;
+    found.coupled_rounds_at_once = (singly ? of_coupled_singly : of_coupled).at_once();
     return found;
 }
 
 std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& joints) {
-    if (stage.domain != DispatchDomain::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints"))
+    const bool prepares = stage.name == "prepare_joints";
+    if (stage.domain != DispatchDomain::joint_blocks ||
+        (stage.name != "solve_joints" && stage.name != "relax_joints" && !prepares))
         return {stage};
     std::vector<Stage> dispatches;
-    if (joints.threads_a_small_block > 0 || joints.threads_a_block == 0) {
+    const auto add_rounds = [&](const char* way, std::uint32_t threads, std::uint32_t at_once) {
+        for (std::uint32_t done = 0; threads > 0 && done < physics::JOINT_ROUNDS; done += at_once) {
+            Stage& part = dispatches.emplace_back(stage);
+            part.way = way;
+            part.threads_an_item = threads == 1 ? 0 : threads;
+            part.pass |= done << 8 | std::min(at_once, physics::JOINT_ROUNDS - done) << 16;
+            part.barrier_after = done + at_once < physics::JOINT_ROUNDS || stage.barrier_after;
+        }
+    };
+    const bool coupled = joints.threads_a_coupled_block > 0;
+    if (prepares) {
+        dispatches.push_back(stage);
+        if (!coupled) return dispatches;
+        dispatches.back().barrier_after = false;
+        dispatches.push_back(stage);
+        dispatches.back().way = ".coupled";
+        return dispatches;
+    }
+    if (joints.threads_a_small_block > 0 || (joints.threads_a_block == 0 && !coupled)) {
         Stage& small = dispatches.emplace_back(stage);
         const bool singly = joints.threads_a_small_block <= 1;
         small.way = singly ? ".singly" : ".small";
         small.threads_an_item = singly ? 0 : joints.threads_a_small_block;
-        small.barrier_after = joints.threads_a_block == 0 && stage.barrier_after;
+        small.barrier_after = joints.threads_a_block == 0 && !coupled && stage.barrier_after;
     }
-    for (std::uint32_t done = 0; joints.threads_a_block > 0 && done < physics::JOINT_ROUNDS; done += joints.rounds_at_once) {
-        dispatches.push_back(stage);
-        dispatches.back().threads_an_item = joints.threads_a_block;
-        dispatches.back().pass |= done << 8 | std::min(joints.rounds_at_once, physics::JOINT_ROUNDS - done) << 16;
-        dispatches.back().barrier_after = done + joints.rounds_at_once < physics::JOINT_ROUNDS || stage.barrier_after;
-    }
+    add_rounds("", joints.threads_a_block, joints.rounds_at_once);
+    if (coupled && !dispatches.empty()) dispatches.back().barrier_after = false;
+    const bool singly = joints.threads_a_coupled_block == 1;
+    add_rounds(singly ? ".coupled_singly" : ".coupled", joints.threads_a_coupled_block, joints.coupled_rounds_at_once);
     return dispatches;
 }
 

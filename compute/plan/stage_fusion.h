@@ -23,12 +23,15 @@ struct JointDispatches {
     // Rounds of a block that is not small (1 to JOINT_ROUNDS) that one dispatch may run: all, unless hundreds of joints
     // are connected. lavapipe silently ends a shader's loops after 65,535 rounds in all.
     std::uint32_t rounds_at_once = physics::JOINT_ROUNDS;
+    std::uint32_t threads_a_coupled_block = 0;  // of blocks with couplings; 1: a thread a block; 0: there are none
+    std::uint32_t coupled_rounds_at_once = physics::JOINT_ROUNDS;
     bool operator==(const JointDispatches&) const = default;
 };
 // `subgroup`: threads of a software device's vector, or 0 for a GPU. On a software device a thread solves a small block.
 JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks,
                                  std::uint32_t subgroup);
-// The dispatches of a stage: solve_joints and relax_joints have one for small blocks and one or several for others.
+// The dispatches of a stage: solve_joints and relax_joints have one for small blocks and one or several for others; where there
+// are blocks with couplings, these and prepare_joints have further ones for them.
 std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& joints);
 
 // The stages that a stage of that name runs: itself, if it is not fused.

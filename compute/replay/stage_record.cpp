@@ -10,8 +10,8 @@
 #include "compute/cpu/reference_runner.h"
 #include "compute/statistics.h"
 #include "compute/tables/table_layout.h"
-#include "compute/world/byte_stream.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/states/byte_stream.h"
+#include "compute/world/states/state_bytes.h"
 
 namespace scree {
 

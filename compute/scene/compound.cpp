@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 
 namespace scree {
 

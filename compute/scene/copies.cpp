@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 
 namespace scree {
 
@@ -25,6 +25,8 @@ struct Moved {
     void operator()(Joint& joint) const {
         (*this)(joint.a);  // the_world is no_body
         (*this)(joint.b);
+        if (auto* coupling = std::get_if<Coupling>(&joint.kind))
+            for (CoupledAxis& term : coupling->joints) term.joint += joints;
     }
     void operator()(Vehicle& vehicle) const {
         (*this)(vehicle.chassis);

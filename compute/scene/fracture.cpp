@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/portable_math.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene/voronoi.h"

@@ -1,7 +1,7 @@
 // Explicit mass properties of bodies: moves a body's frame to its centre of mass and principal axes.
 #pragma once
 
-#include "compute/scene/shape_validation.h"
+#include "compute/scene/validation/shape_validation.h"
 
 namespace scree {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene/shape_geometry.h"
 #include "shaders/physics/body/compound.h"
 #include "shaders/physics/collide/ray.h"

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "compute/scene/compound.h"
-#include "compute/scene/convex_planes.h"
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/convex_planes.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/scene/portable_math.h"
 #include "shaders/physics/base/shapes.h"
 

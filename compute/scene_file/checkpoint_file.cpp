@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compute/world.h"
-#include "compute/world/byte_stream.h"
+#include "compute/world/states/byte_stream.h"
 #include "host/files/file.h"
 #include "host/files/growing_file.h"
 

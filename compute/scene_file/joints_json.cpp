@@ -68,10 +68,18 @@ Joint joint_of(const json& value, const Place& place, const NamedThings& named, 
 
 }  // namespace
 
-void read_joints(const nlohmann::json& value, const NamedThings& named, Scene& scene) {
+void read_joints(const nlohmann::json& value, NamedThings& named, Scene& scene) {
     const Place root{nullptr, nullptr, 0};
     const Place joints = root / "joints";
     if (!value.is_array()) refuse(joints, "must be an array, is " + kind(value));
+    named.joints = numbers_of(scene.joints);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_object() || !value[i].contains("name") || !value[i]["name"].is_string()) continue;
+        const std::string name = value[i]["name"];
+        const std::size_t index = scene.joints.size() + i;
+        if (const auto [known, is_new] = named.joints.try_emplace(name, Named{index}); !is_new) known->second.namesake = index;
+    }
+    named.joints.erase("");
     for (std::size_t i = 0; i < value.size(); ++i) scene.joints.push_back(joint_of(value[i], joints / i, named, scene));
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "compute/scene/body_validation.h"
+#include "compute/scene/validation/body_validation.h"
 #include "compute/scene_file/file_grains.h"
 #include "compute/scene_file/import/folder.h"
 #include "compute/scene_file/import/import_scene.h"

@@ -149,7 +149,6 @@ void read_around(const json& rest, SceneDocument& document) {
     read_field(rest, root, schema::field_of(&Scene::gravity), scene, {});
     NamedThings named{numbers_of(scene.bodies), {}};
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
-    named.joints = numbers_of(scene.joints);
     read_field(rest, root, schema::field_of(&Scene::vehicles), scene, named);
     read_field(rest, root, schema::field_of(&Scene::exclusions), scene, named);
     read_field(rest, root, schema::field_of(&Scene::fields), scene, {});

@@ -95,7 +95,7 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
             for (int i = 0; value && i < 3; ++i)
                 if (!field.range.holds((*value)[i]))
                     refuse(at / field.key / static_cast<std::size_t>(i), out_of_range((*value)[i], field.range, unit));
-        } else {
+        } else if constexpr (HasTable<typename Member::value_type>) {
             if (value) check_fields(at / field.key, *value, rules, within);
         }
     } else if constexpr (is_list<Member>) {

@@ -75,8 +75,27 @@ inline constexpr auto table<SixDof> = table_of(
     field("swing_z", &SixDof::swing_z, {}, "rad", "About z").written());
 
 template <>
-inline constexpr Alternatives<7> alternatives<JointKind> = {
-    "joint_kind", "kind of joint", {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_degrees"}};
+inline constexpr auto words<JointAxis> = std::array{"x", "y", "z", "twist", "swing_y", "swing_z"};
+template <>
+inline constexpr auto table<CoupledAxis> =
+    table_of("coupled_axis", "An axis of another joint, as a term of a coupling",
+             field("joint", &CoupledAxis::joint, "A joint's index or name; no coupling").index_of(Refers::to_joint).required(),
+             field("factor", &CoupledAxis::factor, within(1e6), "", "Of its coordinate in the sum").written(),
+             field("axis", &CoupledAxis::axis, "Left out: x of a slider and of a distance, the twist of others"));
+template <>
+inline constexpr auto table<Coupling> = table_of(
+    "coupling",
+    "The sum of factor times coordinate of other joints' axes, less the offset, is 0, or moves by limits, spring, motor and "
+    "friction",
+    field("joints", &Coupling::joints, between(1, most_coupled_axes), "joints", "Those whose coordinates it couples").required(),
+    field("curve", &Coupling::curve, between(0, 4), "numbers",
+          "Of the last joint in place of its factor: coefficients of its coordinate's first power to the fourth"),
+    field("offset", &Coupling::offset, within(1e6), "", "Left out: the sum at the start"),
+    field("", &Coupling::sum, {}, "m or rad", ""));
+
+template <>
+inline constexpr Alternatives<8> alternatives<JointKind> = {
+    "joint_kind", "kind of joint", {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_degrees", "coupling"}};
 
 template <>
 inline constexpr auto table<Joint> = table_of(

@@ -25,6 +25,7 @@ Words structure_of(const physics::JointBlock& block, std::span<const physics::Jo
                      {from(joint.block_body_a, block.first_body), from(joint.block_body_b, block.first_body), joint.fill_in});
         for (std::uint32_t l = 0; l < joint.fill_in; ++l) words.push_back(joint.fill_in_of[l] - block.first_joint);
     }
+    if (block.couplings != 0) words.push_back(block.couplings);
     return words;
 }
 Words modes_of(std::span<const physics::Joint> joints) {

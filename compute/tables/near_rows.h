@@ -10,10 +10,8 @@ namespace scree {
 
 struct NearRows {
     struct Box {
-        physics::vec3 lower;  // m
-        float pad0 = 0;
-        physics::vec3 upper;
-        float pad1 = 0;
+        alignas(16) physics::vec3 lower;  // m; of four words each, as in an entry, for loads of four (cells.h)
+        alignas(16) physics::vec3 upper;
     };
     // By row: its bounds of some step with a margin; of a row that was not in the grid, empty.
     std::vector<Box> boxes;

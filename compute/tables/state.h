@@ -19,8 +19,8 @@
 #include "compute/tables/scene_features.h"
 #include "compute/tables/shared_records.h"
 #include "compute/tables/table_vectors.h"
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/base/copies.h"
-#include "shaders/physics/contact/contact_impulse.h"
 
 namespace scree {
 

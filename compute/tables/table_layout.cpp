@@ -2,6 +2,7 @@
 #include "compute/tables/table_layout.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "shaders/physics/base/record_groups.h"
 
@@ -105,12 +106,15 @@ bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& sta
 }
 
 void tell_offsets(const TableOffsets& offsets, physics::Parameters& parameters) {
-#define SCREE_TELL(buffer, name, block, record, length) \
-    parameters.name##_offset =                          \
-        static_cast<physics::uint>(offsets.begin[index_of(Table::name)] / buffer_infos()[buffer].record_bytes);
-    SCREE_WORD_TABLES(SCREE_TELL)
-    SCREE_QUAD_TABLES(SCREE_TELL)
-#undef SCREE_TELL
+#define SCREE_TABLE(buffer, name, block, record, length) Table::name,
+    constexpr std::array in_turn{SCREE_WORD_TABLES(SCREE_TABLE) SCREE_QUAD_TABLES(SCREE_TABLE)};
+#undef SCREE_TABLE
+    static_assert(4 * std::extent_v<decltype(parameters.table_offsets)> >= in_turn.size(),
+                  "step_records.h: a longer table_offsets");
+    for (std::size_t i = 0; i < in_turn.size(); ++i) {
+        const std::size_t table = index_of(in_turn[i]), bytes = buffer_infos()[table_infos()[table].buffer].record_bytes;
+        parameters.table_offsets[i / 4][static_cast<int>(i % 4)] = static_cast<physics::uint>(offsets.begin[table] / bytes);
+    }
 }
 
 }  // namespace scree

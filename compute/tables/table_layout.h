@@ -41,7 +41,7 @@ TableOffsets table_offsets(const State& state, const std::function<std::size_t(B
 // Whether the state's tables in a buffer still fit.
 bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state);
 
-// Writes the offsets to Parameters.<table>_offset.
+// Writes the offsets to Parameters.table_offsets.
 void tell_offsets(const TableOffsets& offsets, physics::Parameters& parameters);
 
 }  // namespace scree

@@ -54,4 +54,12 @@ std::span<const std::byte> TableVectors::raw(Table table) const {
     return {};
 }
 
+TableWords TableVectors::words() {
+    TableWords all;
+#define SCREE_WORDS(buffer, name, block, record, length) all.name = reinterpret_cast<decltype(all.name)>(name.data());
+    SCREE_TABLES(SCREE_WORDS)
+#undef SCREE_WORDS
+    return all;
+}
+
 }  // namespace scree

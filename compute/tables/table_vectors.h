@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compute/tables/table.h"
+#include "compute/tables/table_words.h"
 
 namespace scree {
 
@@ -23,6 +24,7 @@ struct TableVectors {
 
     std::span<std::byte> raw(Table table);
     std::span<const std::byte> raw(Table table) const;
+    TableWords words();
 };
 
 }  // namespace scree

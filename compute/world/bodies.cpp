@@ -222,9 +222,11 @@ TableRanges World::Impl::break_joints_of(const std::vector<std::size_t>& bodies)
     std::vector<std::size_t> ended;
     count_joints();
     const auto goes = [&](std::size_t body) { return std::binary_search(bodies.begin(), bodies.end(), body); };
-    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-        if (is_joint_gone(j) || (!goes(scene.joints[j].a) && !goes(scene.joints[j].b))) continue;
-        ended.push_back(j);
+    for (std::size_t j = 0; j < scene.joints.size(); ++j)
+        if (!is_joint_gone(j) && (goes(scene.joints[j].a) || goes(scene.joints[j].b))) ended.push_back(j);
+    const std::vector<std::size_t> couplings = couplings_of(ended);
+    ended.insert(ended.end(), couplings.begin(), couplings.end());
+    for (const std::size_t j : ended) {
         records.push_back({Table::joints, state.joint_records[j], 1});
         wake(scene.joints[j]);
     }

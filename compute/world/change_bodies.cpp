@@ -8,7 +8,7 @@
 
 #include "compute/compile/state_editor.h"
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/validator.h"
+#include "compute/scene/validation/validator.h"
 #include "compute/schema/body.h"
 #include "compute/schema/check.h"
 #include "compute/world/world_impl.h"

@@ -118,8 +118,8 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
         const JointAxes made = axes_of_kind(scene.joints[j].kind);
         for (std::size_t k = 0; k < 6; ++k) set_axis_record(joint, made, k);
         joint.broken = scene.joints[j].broken;
-        start_joint(state, joint, scene.joints[j].angle);
     }
+    start_joints(state, scene, copy * joints, (copy + 1) * joints);
     changed.push_back({Table::joints, copy * records, records});
 }
 

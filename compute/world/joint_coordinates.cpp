@@ -197,6 +197,7 @@ void World::Impl::set_joint_coordinates(std::span<const JointCoordinate> coordin
             if (!condition) throw std::invalid_argument(name_of(joint, one.joint) + what);
         };
         demand(!is_off[one.joint], " is broken");
+        demand(!std::holds_alternative<Coupling>(joint.kind), ": a coupling's coordinate follows from those of its joints");
         demand(!std::holds_alternative<Distance>(joint.kind),
                ": a distance says not where the bodies are; place them by set_bodies");
         const JointAxes axes = axes_of_kind(joint.kind);

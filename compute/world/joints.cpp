@@ -8,7 +8,7 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/compile/state_editor.h"
-#include "compute/scene/joint_validation.h"
+#include "compute/scene/validation/joint_validation.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -19,6 +19,7 @@ namespace {
 Axis* axis_of(JointKind& kind, JointAxis axis) {
     if (auto* hinge = std::get_if<Hinge>(&kind)) return axis == JointAxis::twist ? &hinge->turn : nullptr;
     if (auto* slider = std::get_if<Slider>(&kind)) return axis == JointAxis::x ? &slider->slide : nullptr;
+    if (auto* coupling = std::get_if<Coupling>(&kind)) return axis == JointAxis::x ? &coupling->sum : nullptr;
     auto* six = std::get_if<SixDof>(&kind);
     if (!six) return nullptr;
     Axis* const axes[] = {&six->x, &six->y, &six->z, &six->twist, &six->swing_y, &six->swing_z};
@@ -49,6 +50,12 @@ JointState World::Impl::joint_state(std::size_t i) const {
     found.max_force = record.max_force;
     found.max_torque = record.max_torque;
     found.broken = record.broken != 0;
+    if ((record.flags & physics::JOINT_COUPLES) != 0) {
+        const CouplingState coupled = coupling_state(state, record);
+        found.coordinates[0] = coupled.coordinate;
+        found.rates[0] = coupled.rate;
+        return found;
+    }
     const physics::JointConfiguration at = configuration_of(state, record);
     found.gap = glm::length(at.gap);
     const float coordinates[] = {
@@ -102,6 +109,8 @@ void World::Impl::set_axes(std::span<const AxisChange> changes) {
 void World::Impl::wake(const Joint& joint) {
     for (const std::size_t body : {joint.a, joint.b})
         if (body != the_world && scene.bodies[body].motion == Motion::dynamic) action_on(body, vec3(0), vec3(0));
+    if (const auto* coupling = std::get_if<Coupling>(&joint.kind))
+        for (const CoupledAxis& term : coupling->joints) wake(scene.joints[term.joint]);
 }
 
 JointState World::joint(std::size_t index) const {
@@ -176,7 +185,8 @@ void World::set_joint_coordinates(std::span<const JointCoordinate> coordinates) 
 }
 
 JointAxis main_axis(const JointKind& kind) {
-    const bool along = std::holds_alternative<Slider>(kind) || std::holds_alternative<Distance>(kind);
+    const bool along =
+        std::holds_alternative<Slider>(kind) || std::holds_alternative<Distance>(kind) || std::holds_alternative<Coupling>(kind);
     return along ? JointAxis::x : JointAxis::twist;
 }
 
@@ -187,8 +197,15 @@ void World::apply_joint_forces(std::span<const JointForce> forces) {
         in.require_joint(one.joint);
         const Joint& joint = in.scene.joints[one.joint];
         if (!std::isfinite(one.force)) throw std::invalid_argument(name_of(joint, one.joint) + ": the force is not finite");
-        for (const std::size_t body : {joint.a, joint.b})
-            if (body != the_world) poses.push_back({Table::poses, in.state.row_of(body), 1});
+        const auto take_poses = [&](const Joint& of) {
+            for (const std::size_t body : {of.a, of.b})
+                if (body != the_world) poses.push_back({Table::poses, in.state.row_of(body), 1});
+        };
+        take_poses(joint);
+        const auto* coupling = std::get_if<Coupling>(&joint.kind);
+        if (!coupling) continue;
+        for (const CoupledAxis& term : coupling->joints) take_poses(in.scene.joints[term.joint]);
+        poses.push_back({Table::joints, in.state.joint_records[one.joint], 1});
     }
     in.runner->download(poses);
     for (const JointForce& one : forces) in.apply_joint_force(one);
@@ -196,6 +213,14 @@ void World::apply_joint_forces(std::span<const JointForce> forces) {
 
 void World::Impl::apply_joint_force(const JointForce& one) {
     const physics::Joint& record = state.joints[state.joint_records[one.joint]];
+    if (const auto* coupling = std::get_if<Coupling>(&scene.joints[one.joint].kind)) {
+        for (std::size_t t = 0; t < coupling->joints.size(); ++t) {
+            const CoupledAxis& term = coupling->joints[t];
+            const float factor = (t < 4 ? record.frame_a : record.frame_b)[static_cast<int>(t % 4)];
+            apply_joint_force({term.joint, term.axis.value_or(main_axis(scene.joints[term.joint].kind)), factor * one.force});
+        }
+        return;
+    }
     const auto pose = [&](physics::uint body) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
@@ -229,6 +254,25 @@ void World::Impl::rejoin(std::optional<std::size_t> without, std::span<const std
     if (events.settings().breaks) events.note_joints(scene, state);
 }
 
+std::vector<std::size_t> World::Impl::couplings_of(std::span<const std::size_t> joints) const {
+    std::vector<std::size_t> found;
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+        const auto* coupling = std::get_if<Coupling>(&scene.joints[j].kind);
+        if (!coupling || is_joint_gone(j)) continue;
+        if (std::any_of(coupling->joints.begin(), coupling->joints.end(), [&](const CoupledAxis& term) {
+                return std::find(joints.begin(), joints.end(), term.joint) != joints.end();
+            }))
+            found.push_back(j);
+    }
+    return found;
+}
+void World::Impl::require_uncoupled(std::span<const std::size_t> joints) const {
+    for (const std::size_t coupling : couplings_of(joints))
+        if (std::find(joints.begin(), joints.end(), coupling) == joints.end())
+            throw std::invalid_argument(name_of(scene.joints[coupling], coupling) +
+                                        " couples a joint that is to be removed; remove the coupling, too");
+}
+
 void World::Impl::count_joints() {
     joints_gone.resize(scene.joints.size());
     while (joint_births.size() < scene.joints.size()) joint_births.push_back(births++);
@@ -246,6 +290,17 @@ void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
                                  "body " + std::to_string(body) +
                                      (is_gone(body) ? " has been removed"
                                                     : " is not there: it has broken, or is a piece of one that has not"));
+        if (const auto* coupling = std::get_if<Coupling>(&joint.kind))
+            for (std::size_t t = 0; t < coupling->joints.size(); ++t)
+                if (is_joint_gone(coupling->joints[t].joint) &&
+                    std::find(joints.begin(), joints.end(), coupling->joints[t].joint) == joints.end())
+                    throw SceneError("/joints/" + std::to_string(i) + "/kind/coupling/joints/" + std::to_string(t) + "/joint",
+                                     "joint " + std::to_string(coupling->joints[t].joint) + " has been removed");
+    }
+    try {
+        check_couplings(scene);
+    } catch (const SceneError& error) {
+        throw SceneError("/joints/0", std::string(error.what()).substr(error.pointer.size() + 2));
     }
 }
 
@@ -310,9 +365,13 @@ void World::remove_joint(std::size_t index) {
     in.require_joint(index);
     in.require_no_wheel(index);
     in.count_joints();
+    in.require_uncoupled({&index, 1});
     in.wake(in.scene.joints[index]);
     for (Vehicle& vehicle : in.scene.vehicles)
         for (Wheel& wheel : vehicle.wheels) wheel.joint -= wheel.joint > index;
+    for (Joint& joint : in.scene.joints)
+        if (auto* coupling = std::get_if<Coupling>(&joint.kind))
+            for (CoupledAxis& term : coupling->joints) term.joint -= term.joint > index;
     const auto place = static_cast<std::ptrdiff_t>(index);
     in.scene.joints.erase(in.scene.joints.begin() + place);
     in.joint_births.erase(in.joint_births.begin() + place);
@@ -332,6 +391,7 @@ void World::remove_joints(std::span<const JointHandle> joints) {
     if (const auto twice = std::adjacent_find(indices.begin(), indices.end()); twice != indices.end())
         throw std::invalid_argument(name_of(in.scene.joints[*twice], *twice) + " is named twice");
     in.count_joints();
+    in.require_uncoupled(indices);
     TableRanges records;
     for (const std::size_t index : indices) records.push_back({Table::joints, in.state.joint_records[index], 1});
     in.runner->download(records);

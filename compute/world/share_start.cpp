@@ -12,7 +12,7 @@
 
 #include "compute/compile/scene_compiler.h"
 #include "compute/tables/memory_order.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/states/state_bytes.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/contact/material.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compute/compile/grid_layout.h"
-#include "compute/scene/body_validation.h"
+#include "compute/scene/validation/body_validation.h"
 #include "compute/scene_stream.h"
 #include "compute/settings.h"
 #include "compute/tables/state.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "compute/distributed/packing.h"
-#include "compute/world/scene_bytes.h"
 #include "compute/world/share_start.h"
+#include "compute/world/states/scene_bytes.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {

@@ -17,13 +17,13 @@
 
 #include "compute/distributed/ranks.h"
 #include "compute/scene/copies.h"
-#include "compute/scene/joint_validation.h"
+#include "compute/scene/validation/joint_validation.h"
 #include "compute/statistics.h"
 #include "compute/tables/table_ranges.h"
 #include "compute/world.h"
-#include "compute/world/events.h"
-#include "compute/world/query_scene.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/queries/events.h"
+#include "compute/world/queries/query_scene.h"
+#include "compute/world/states/state_bytes.h"
 
 namespace scree {
 
@@ -179,6 +179,8 @@ struct World::Impl {
     // Rebuilds the joint records from the scene; those of `fresh` joints are new, not those of joints that had their indices.
     void rejoin(std::optional<std::size_t> without = std::nullopt, std::span<const std::size_t> fresh = {});
     void check_new_joints(std::span<const std::size_t> joints);
+    std::vector<std::size_t> couplings_of(std::span<const std::size_t> joints) const;  // that are there
+    void require_uncoupled(std::span<const std::size_t> joints) const;  // but by each other; throws std::invalid_argument
     void take_away_joint(std::size_t joint);
     std::optional<std::size_t> place_of_joint(const JointHandle& joint);
     void count_joints();  // lengthens the lists by index

@@ -133,7 +133,8 @@ Thing next_of(const std::vector<Thing>& list, const char* key, const json& value
 std::size_t add_joint(Scene& scene, const json& value) {
     const std::size_t index = scene.joints.size();
     try {
-        read_joints(json::array({value}), {}, scene);
+        NamedThings named;
+        read_joints(json::array({value}), named, scene);
     } catch (const SceneError& error) {
         const std::string inside = "/joints/0", what = error.what();
         if (error.pointer.compare(0, inside.size(), inside) != 0) throw;

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/tables/state.h"
 #include "demos/film/solid_meshes.h"
 #include "demos/program/exit_status.h"

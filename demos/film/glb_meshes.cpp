@@ -9,7 +9,7 @@
 #include <optional>
 #include <variant>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 #include "demos/film/solid_meshes.h"
 #include "shaders/physics/base/arithmetic.h"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 
 namespace scree::demos {
 

@@ -25,6 +25,7 @@ public:
         if (ball.friction > 0) note_("friction of joints is left out");
     }
     void say(const Fixed&) { type = "PhysicsFixedJoint"; }
+    void say(const Coupling&) {}  // usd_joint()
     void say(const Hinge& hinge) {
         type = "PhysicsRevoluteJoint";
         single(hinge.turn, "angular", joint_degrees);
@@ -114,6 +115,10 @@ private:
 std::string usd_joint(const Scene& scene, std::size_t index, const std::vector<std::string>& paths,
                       const std::function<void(const std::string&)>& note) {
     const Joint& joint = scene.joints[index];
+    if (std::holds_alternative<Coupling>(joint.kind)) {
+        note("couplings of joints are left out");
+        return "";
+    }
     UsdJoint made(note);
     std::visit([&](const auto& kind) { made.say(kind); }, joint.kind);
     std::string text = fmt::format("    def {} \"joint_{}\"", made.type, index);

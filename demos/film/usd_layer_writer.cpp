@@ -127,9 +127,17 @@ void put_over(host::GrowingFile& file, const std::string& name, const Over& over
     file.append(std::string_view(indent + "}\n"));
 }
 
-}  // namespace
+struct UsdLayerWriter : AnimationWriter {
+    UsdLayerWriter(std::filesystem::path to, std::filesystem::path over, const ImportOptions& options)
+        : path(std::move(to)),
+          under(std::move(over)),
+          input(imports::usd_input(under, options)),
+          tracks(input.bodies.size()),
+          of_instancers(input.instancers.size()) {}
+    void begin(const Animated& all) override;
+    void add(const Animated& all, const Moment& moment) override;
+    void write(const Animated& all) override;
 
-struct UsdLayerWriter::Impl {
     std::filesystem::path path, under;
     UsdInput input;
     std::vector<Tracked> tracks;                            // of the input's bodies
@@ -138,14 +146,13 @@ struct UsdLayerWriter::Impl {
     std::vector<std::size_t> animated;                      // of the input's bodies: which of the run's, or none
     double last = 0;                                        // time code
 
-    void find(const Animated& all);
     std::vector<dmat4> worlds(const Animated& all) const;
     void sample(std::size_t body, const dmat4& local, double time);
     void sample_instancers(const std::vector<dmat4>& worlds, double time);
     std::string opening() const;
 };
 
-void UsdLayerWriter::Impl::find(const Animated& all) {
+void UsdLayerWriter::begin(const Animated& all) {
     std::unordered_map<std::string, std::size_t> by_name;
     for (std::size_t i = 0; i < all.bodies.size(); ++i) by_name.emplace(all.bodies[i].name, i);
     animated.clear();
@@ -156,7 +163,7 @@ void UsdLayerWriter::Impl::find(const Animated& all) {
 }
 
 // Transforms of the prims, m, in the scene's axes.
-std::vector<dmat4> UsdLayerWriter::Impl::worlds(const Animated& all) const {
+std::vector<dmat4> UsdLayerWriter::worlds(const Animated& all) const {
     std::vector<dmat4> made;
     for (std::size_t i = 0; i < input.bodies.size(); ++i) {
         Placed placed = input.bodies[i].placed;
@@ -174,7 +181,7 @@ std::vector<dmat4> UsdLayerWriter::Impl::worlds(const Animated& all) const {
     return made;
 }
 
-void UsdLayerWriter::Impl::sample(std::size_t body, const dmat4& local, double time) {
+void UsdLayerWriter::sample(std::size_t body, const dmat4& local, double time) {
     Tracked& track = tracks[body];
     const std::optional<Parts> parts = parts_of(local);
     track.whole.add(time, matrix_text(local));
@@ -187,7 +194,7 @@ void UsdLayerWriter::Impl::sample(std::size_t body, const dmat4& local, double t
     track.turn.add(time, turn_text(turn));
 }
 
-void UsdLayerWriter::Impl::sample_instancers(const std::vector<dmat4>& worlds, double time) {
+void UsdLayerWriter::sample_instancers(const std::vector<dmat4>& worlds, double time) {
     for (std::size_t k = 0; k < input.instancers.size(); ++k) {
         imports::UsdInstancer& instancer = input.instancers[k];
         for (std::size_t i = 0; i < input.bodies.size(); ++i) {
@@ -212,7 +219,7 @@ void UsdLayerWriter::Impl::sample_instancers(const std::vector<dmat4>& worlds, d
     }
 }
 
-std::string UsdLayerWriter::Impl::opening() const {
+std::string UsdLayerWriter::opening() const {
     std::error_code failed;
     const std::filesystem::path folder = std::filesystem::absolute(path, failed).parent_path();
     std::filesystem::path way = std::filesystem::proximate(std::filesystem::absolute(under, failed), folder, failed);
@@ -229,46 +236,29 @@ std::string UsdLayerWriter::Impl::opening() const {
     return text;
 }
 
-UsdLayerWriter::UsdLayerWriter(const std::filesystem::path& path, const std::filesystem::path& under,
-                               const ImportOptions& options)
-    : interior_(std::make_unique<Impl>()) {
-    Impl& in = *interior_;
-    in.path = path, in.under = under;
-    in.input = imports::usd_input(under, options);
-    in.tracks.resize(in.input.bodies.size());
-    in.of_instancers.resize(in.input.instancers.size());
-}
-UsdLayerWriter::~UsdLayerWriter() = default;
-
-void UsdLayerWriter::begin(const Animated& all) {
-    interior_->find(all);
-}
-
 void UsdLayerWriter::add(const Animated& all, const Moment& moment) {
-    Impl& in = *interior_;
-    const double time = in.last = in.input.start + std::round(moment.time * in.input.time_codes * 1e9) / 1e9;
-    const std::vector<dmat4> worlds = in.worlds(all);
+    const double time = last = input.start + std::round(moment.time * input.time_codes * 1e9) / 1e9;
+    const std::vector<dmat4> worlds = this->worlds(all);
     for (std::size_t i = 0; i < worlds.size(); ++i) {
-        const UsdBodyPrim& body = in.input.bodies[i];
+        const UsdBodyPrim& body = input.bodies[i];
         if (!body.instancer.empty() || body.path.find('[') != body.path.npos) continue;
         dmat4 above = body.above;
         if (body.carrier != body.no_carrier && !body.resets) {
-            const UsdBodyPrim& carrier = in.input.bodies[body.carrier];
+            const UsdBodyPrim& carrier = input.bodies[body.carrier];
             above = worlds[body.carrier] * glm::inverse(matrix_of(carrier.placed) * carrier.stretch) * above;
         }
-        in.sample(i, glm::inverse(above) * worlds[i], time);
+        sample(i, glm::inverse(above) * worlds[i], time);
     }
-    in.sample_instancers(worlds, time);
+    sample_instancers(worlds, time);
 }
 
 void UsdLayerWriter::write(const Animated&) {
-    Impl& in = *interior_;
     Over root;
-    for (std::size_t i = 0; i < in.input.bodies.size(); ++i) {
-        const UsdBodyPrim& body = in.input.bodies[i];
+    for (std::size_t i = 0; i < input.bodies.size(); ++i) {
+        const UsdBodyPrim& body = input.bodies[i];
         if (!body.instancer.empty() || body.path.find('[') != body.path.npos) continue;
         for (const std::string& instance : body.instances) root.at(instance).metadata = " (\n    instanceable = false\n)";
-        const Tracked& track = in.tracks[i];
+        const Tracked& track = tracks[i];
         const std::string reset = body.resets ? "\"!resetXformStack!\", " : "";
         std::string text;
         if (track.sheared)
@@ -284,15 +274,22 @@ void UsdLayerWriter::write(const Animated&) {
                 track.turn.text, scale_text(glm::vec3(track.scale)), track.position.text, reset);
         root.at(body.path).text += text;
     }
-    for (std::size_t k = 0; k < in.input.instancers.size(); ++k)
-        root.at(in.input.instancers[k].path).text += fmt::format(
+    for (std::size_t k = 0; k < input.instancers.size(); ++k)
+        root.at(input.instancers[k].path).text += fmt::format(
             "    quatf[] orientationsf.timeSamples = {{\n{0}    }}\n    quath[] orientations.timeSamples = {{\n{0}    }}\n"
             "    point3f[] positions.timeSamples = {{\n{1}    }}\n",
-            in.of_instancers[k][1].text, in.of_instancers[k][0].text);
-    host::GrowingFile file(in.path);
-    file.append(std::string_view(in.opening()));
+            of_instancers[k][1].text, of_instancers[k][0].text);
+    host::GrowingFile file(path);
+    file.append(std::string_view(opening()));
     for (const auto& [name, over] : root.below) put_over(file, name, over, "");
     file.commit();
+}
+
+}  // namespace
+
+std::unique_ptr<AnimationWriter> usd_layer_writer(const std::filesystem::path& path, const std::filesystem::path& under,
+                                                  const ImportOptions& options) {
+    return std::make_unique<UsdLayerWriter>(path, under, options);
 }
 
 }  // namespace scree::demos

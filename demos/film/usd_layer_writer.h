@@ -10,19 +10,8 @@
 
 namespace scree::demos {
 
-class UsdLayerWriter : public AnimationWriter {
-public:
-    // Throws host::FileError, and ImportError for what cannot be read under the layer.
-    UsdLayerWriter(const std::filesystem::path& path, const std::filesystem::path& under, const ImportOptions& options);
-    ~UsdLayerWriter() override;
-
-    void begin(const Animated& all) override;
-    void add(const Animated& all, const Moment& moment) override;
-    void write(const Animated& all) override;
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> interior_;
-};
+// Throws host::FileError, and ImportError for what cannot be read under the layer.
+std::unique_ptr<AnimationWriter> usd_layer_writer(const std::filesystem::path& path, const std::filesystem::path& under,
+                                                  const ImportOptions& options);
 
 }  // namespace scree::demos

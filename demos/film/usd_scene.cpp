@@ -13,8 +13,8 @@
 #include <set>
 #include <utility>
 
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "demos/film/usd_joints.h"
 #include "host/canvas/colors.h"
 

@@ -56,7 +56,7 @@ Bodies bodies_that(const Animated& all, bool move) {
     return chosen;
 }
 
-// The light grey of bodies without a colour beside others, linear, as in pictures (shaders/render/tint.comp).
+// The light grey of bodies without a colour beside others, linear, as in pictures (shaders/render/bodies/tint.comp).
 constexpr glm::vec3 uncolored(0.55f, 0.53f, 0.50f);
 
 // What does not change over time: which mesh each body has, its id, its scale and its colour.

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/portable_math.h"
 #include "compute/tables/state.h"
 #include "demos/film/glb_meshes.h"

@@ -272,16 +272,7 @@ void Interaction::reset() {
 }
 
 void Interaction::go_to(std::uint64_t step) {
-    const std::optional<std::size_t> selected = selected_;
-    begin_again();
-    try {
-        session_.go_to(step);
-        message_.clear();
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
-    selected_ = selected;
-    forget_removed();
+    travel([&] { session_.go_to(step); });
 }
 
 void Interaction::undo() {
@@ -314,10 +305,15 @@ void Interaction::open(const std::function<void()>& work) {
 }
 
 void Interaction::return_to(const Session::Moment& moment) {
+    travel([&] { session_.return_to(moment); });
+}
+
+// To another time of the scene, with what is selected.
+void Interaction::travel(const std::function<void()>& work) {
     const std::optional<std::size_t> selected = selected_;
     begin_again();
     try {
-        session_.return_to(moment);
+        work();
         message_.clear();
     } catch (const std::exception& error) {
         message_ = error.what();

@@ -128,6 +128,7 @@ private:
     void press_key(const host::Event& event);
     void begin_again();
     void open(const std::function<void()>& work);
+    void travel(const std::function<void()>& work);
     void forget_removed();
     void pick(const RayHit& hit);
     void join(const PickedPoint& a, const PickedPoint& b);

@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "compute/scene/decomposed.h"
+#include "compute/scene/meshes/decomposed.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
 #include "compute/schema/settings.h"

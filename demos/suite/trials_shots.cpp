@@ -80,23 +80,29 @@ void add_margin(Scene& scene, const Front& front, float half_thickness, float se
     }
 }
 
+constexpr float thin = 0.025f;  // half the wall's thickness, m
+std::size_t add_piece(Scene& scene, const Front& front, std::size_t i) {
+    scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
+    return scene.bodies.size() - 1;
+}
+Scene weightless() {
+    Scene scene;
+    scene.gravity = vec3(0);
+    return scene;
+}
+
 }  // namespace
 
 // A wall 0.05 m thick, in adjacent pieces with a projectile each; the slowest and most oblique one arrives after 0.2
 // s.
 DemoScene shots(const DemoOptions& options) {
-    constexpr float thin = 0.025f, seconds = 0.4f;
+    constexpr float seconds = 0.4f;
     const Front front = front_for(options.bodies);
     Random random(options.seed);
-    Scene scene;
-    scene.gravity = vec3(0);
+    Scene scene = weightless();
     std::vector<Shot> shots;
-    const auto add_piece = [&](std::size_t i) {
-        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
-        return scene.bodies.size() - 1;
-    };
     for (std::size_t i = 0; i < options.bodies; ++i) {
-        const std::size_t piece = add_piece(i);
+        const std::size_t piece = add_piece(scene, front, i);
         Body shot = some_shot(i, random);
         const vec3 aim = some_aim(1, random);
         const float before = random.between(0.12f, 0.45f) / -aim.z;
@@ -105,7 +111,7 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
-    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // fill the last row
+    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(scene, front, i);  // fill the last row
     add_margin(scene, front, thin, seconds);
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
@@ -113,19 +119,14 @@ DemoScene shots(const DemoOptions& options) {
 // Pairs and chains of two to five bodies on joints, flying and spinning as one, at the same wall: balls, hinges and fixed
 // joints in turn.
 DemoScene joinedshots(const DemoOptions& options) {
-    constexpr float thin = 0.025f, seconds = 0.4f, apart = 0.11f;
+    constexpr float seconds = 0.4f, apart = 0.11f;
     const std::size_t groups = std::max<std::size_t>(1, 2 * options.bodies / 7);
     const Front front = front_for(groups);
     Random random(options.seed);
-    Scene scene;
-    scene.gravity = vec3(0);
+    Scene scene = weightless();
     std::vector<Shot> shots;
-    const auto add_piece = [&](std::size_t i) {
-        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
-        return scene.bodies.size() - 1;
-    };
     for (std::size_t i = 0; i < groups; ++i) {
-        const std::size_t piece = add_piece(i);
+        const std::size_t piece = add_piece(scene, front, i);
         const vec3 aim = some_aim(0.5f, random);
         const vec3 velocity = aim * some_speed(random);
         const vec3 axis = physics::rotate(random.orientation(), vec3(1, 0, 0));
@@ -154,7 +155,7 @@ DemoScene joinedshots(const DemoOptions& options) {
             scene.bodies.push_back(link);
         }
     }
-    for (std::size_t i = groups; i < front.places(); ++i) add_piece(i);  // fill the last row
+    for (std::size_t i = groups; i < front.places(); ++i) add_piece(scene, front, i);  // fill the last row
     add_margin(scene, front, thin, seconds);
     return finish(std::move(scene), front, "pairs and chains on joints at a wall 5 cm thick", std::move(shots), seconds);
 }

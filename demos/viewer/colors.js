@@ -1,4 +1,4 @@
-// Colours of bodies, as the program's pictures have them (shaders/render/tint.comp, host/canvas/colors.cpp).
+// Colours of bodies, as the program's pictures have them (shaders/render/bodies/tint.comp, host/canvas/colors.cpp).
 import { clamp } from './math.js';
 import { DYNAMIC, FIXED, KINEMATIC } from './scene.js';
 

@@ -41,7 +41,7 @@ export function octahedron() {
   return finished(mesh);
 }
 
-// The corners of a box that its near faces need; which, the shader finds (shaders/render/cube.h).
+// The corners of a box that its near faces need; which, the shader finds (shaders/render/bodies/cube.h).
 export function nearBox() {
   const mesh = made();
   for (let i = 0; i < 7; ++i) put(mesh, [i, 0, 0], [0, 1, 0]);

@@ -119,7 +119,7 @@ bool has_scale(ColorBy by) {
     return by != ColorBy::body && by != ColorBy::plain && by != ColorBy::material && by != ColorBy::own;
 }
 
-// As name_color() in shaders/render/coloring.h.
+// As name_color() in shaders/render/bodies/coloring.h.
 vec3 name_color(unsigned n) {
     const float golden = static_cast<float>(n % 4096u) * 0.61803399f;
     const float hue = golden - std::floor(golden);

@@ -80,7 +80,7 @@ void Scenery::add_meshes() {
     if (directions.empty()) directions.emplace_back(0);
 }
 
-// Layout as in shaders/render/solid_mesh.h. Every body is drawn with the vertex count of the largest mesh.
+// Layout as in shaders/render/bodies/solid_mesh.h. Every body is drawn with the vertex count of the largest mesh.
 void Scenery::add_solids(const ShapeInstances& bodies) {
     std::vector<glm::vec4> table(bodies.solids.empty() ? 0 : records);
     std::vector<std::size_t> begins;

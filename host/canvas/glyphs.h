@@ -18,7 +18,7 @@ struct Glyph {
 constexpr int GLYPH_SIZE = 40;
 constexpr int GLYPH_PADDING = 4;      // texels around an outline
 constexpr int GLYPH_OUTLINE = 128;    // level (0..255) at the outline
-constexpr float GLYPH_SLOPE = 32.0f;  // levels per texel of distance, as in shaders/render/overlay.frag
+constexpr float GLYPH_SLOPE = 32.0f;  // levels per texel of distance, as in shaders/render/screen/overlay.frag
 
 struct GlyphAtlas {
     int width = 0, height = 0;

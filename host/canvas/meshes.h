@@ -9,7 +9,7 @@
 namespace scree::host {
 
 struct RoundMesh {
-    std::vector<glm::vec4> directions;   // see shaders/render/round.vert
+    std::vector<glm::vec4> directions;   // see shaders/render/bodies/round.vert
     std::vector<std::uint32_t> indices;  // triangles, counterclockwise from outside
 };
 

@@ -1,4 +1,4 @@
-// Antialiasing by FXAA (Lottes 2009), as in shaders/render/smooth.frag.
+// Antialiasing by FXAA (Lottes 2009), as in shaders/render/screen/smooth.frag.
 #include "host/canvas/smoothing.h"
 
 #include <algorithm>

@@ -65,9 +65,10 @@ std::size_t rounded_up(std::size_t bytes, std::size_t alignment) {
 
 class Parser {
 public:
-    Parser(const std::string& text, std::string path) : tokens_(tokens_of(text)), path_(std::move(path)) {}
+    Parser(std::vector<Record>& records, const std::string& text, std::string path)
+        : tokens_(tokens_of(text)), path_(std::move(path)), records_(records) {}
 
-    std::vector<Record> records() {
+    void read() {
         for (int depth = 0; at_ < tokens_.size();) {
             const std::string& word = tokens_[at_].text;
             if (word == "struct" && depth == 0) {
@@ -79,7 +80,6 @@ public:
             if (depth < 0) fail("'}' closes nothing");
             ++at_;
         }
-        return std::move(records_);
     }
 
 private:
@@ -182,13 +182,13 @@ private:
     std::size_t at_ = 0;
     std::size_t packed_ = 0;  // size of the record so far without padding, bytes
     std::map<std::string, std::size_t> constants_;
-    std::vector<Record> records_;
+    std::vector<Record>& records_;  // those of earlier files first
 };
 
 }  // namespace
 
-std::vector<Record> records_of(const std::string& text, const std::string& path) {
-    return Parser(text, path).records();
+void add_records(std::vector<Record>& records, const std::string& text, const std::string& path) {
+    Parser(records, text, path).read();
 }
 
 }  // namespace scree::host

@@ -28,9 +28,9 @@ struct Record {
     std::size_t alignment = 0;
 };
 
-// The structs of `text`, whose members are scalars, vectors, earlier structs and arrays of these, laid out by std430.
+// Adds the structs of `text`, whose members are scalars, vectors, earlier structs and arrays of these, laid out by std430.
 // Throws RecordError for a struct whose std430 layout has implicit padding, which C++ would lay out differently.
 // `path` is for messages.
-std::vector<Record> records_of(const std::string& text, const std::string& path);
+void add_records(std::vector<Record>& records, const std::string& text, const std::string& path);
 
 }  // namespace scree::host

@@ -251,7 +251,7 @@ void Window::Impl::clicked(int button, int action, int modifiers) {
 void Window::Impl::typed(int code, int place, int action, int modifiers) {
     if (action == GLFW_REPEAT) return;
     const std::uint64_t order = keyboard.add({.code = code, .place = place, .action = action, .modifiers = modifiers});
-    if (action == GLFW_PRESS && code != GLFW_KEY_ESCAPE && ImGui::GetIO().WantTextInput) return;
+    if (action == GLFW_PRESS && code != GLFW_KEY_ESCAPE && edits_text()) return;
     Event event{.kind = action == GLFW_PRESS ? EventKind::key_pressed : EventKind::key_released, .x = x, .y = y};
     event.key = key_of_glfw(code);
     event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
@@ -331,6 +331,11 @@ void Window::begin_panel(bool takes_keys) {
 void Window::end_panel() {
     ImGui::Render();
 }
+// WantTextInput lags by up to two pictures.
+bool Window::edits_text() {
+    const ImGuiID active = ImGui::GetActiveID();
+    return active != 0 && ImGui::GetInputTextState(active) != nullptr;
+}
 void Window::forget_text(const Event& key) {
     interior_->keyboard.forget_text(key.order);
 }
@@ -345,15 +350,11 @@ void Window::Impl::record(VkImage picture, const Swapchain::Target& target, int 
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-    VkImageMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = target.image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                            1, &barrier);
+    image_barrier(*device, commands, target.image,
+                  {.to = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                   .before = VK_PIPELINE_STAGE_TRANSFER_BIT,
+                   .after = VK_PIPELINE_STAGE_TRANSFER_BIT,
+                   .access_after = VK_ACCESS_TRANSFER_WRITE_BIT});
     const VkExtent2D extent = swapchain->extent();
     const bool enlarges =
         static_cast<std::uint32_t>(width) != extent.width || static_cast<std::uint32_t>(height) != extent.height;

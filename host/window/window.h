@@ -52,6 +52,7 @@ public:
     // need be, so that none is lost however few pictures are drawn; without `takes_keys` they wait for the next call.
     void begin_panel(bool takes_keys = true);
     void end_panel();
+    static bool edits_text();            // whether the user edits a text field of the panel now
     void forget_text(const Event& key);  // the panel does not get what this press would write
     void set_text_scale(float scale);    // of the panel; 1: letters of 15 pixels
     // Draws with the canvas (a Vulkan canvas on this device, of this size or smaller: it is enlarged) and presents the picture

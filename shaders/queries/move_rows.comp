@@ -5,6 +5,7 @@
 
 #include "shaders/physics/base/record_groups.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/stages/lib/prefix_sum.glsl"
 
 layout(local_size_x_id = 0) in;
 
@@ -77,21 +78,6 @@ uint sums() {
 uint contacts_of(uint row) {
     uint from = from_of(row);
     return words.at[push.first + from + 1u] - words.at[push.first + from];
-}
-
-shared uint partial[256];
-
-uint sum_before(uint value) {
-    uint t = gl_LocalInvocationID.x;
-    partial[t] = value;
-    barrier();
-    for (uint d = 1u; d < gl_WorkGroupSize.x; d <<= 1) {
-        uint other = t >= d ? partial[t - d] : 0u;
-        barrier();
-        partial[t] += other;
-        barrier();
-    }
-    return partial[t] - value;
 }
 
 void count_block(uint block) {

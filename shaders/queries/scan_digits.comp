@@ -4,23 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/queries/tables.glsl"
+#include "shaders/stages/lib/prefix_sum.glsl"
 
 const uint ITEMS = 16u;  // per thread
-
-shared uint partial[256];
-
-uint sum_before(uint value) {
-    uint t = gl_LocalInvocationID.x;
-    partial[t] = value;
-    barrier();
-    for (uint d = 1u; d < gl_WorkGroupSize.x; d <<= 1) {
-        uint other = t >= d ? partial[t - d] : 0u;
-        barrier();
-        partial[t] += other;
-        barrier();
-    }
-    return partial[t] - value;
-}
 
 void main() {
     uint items = DIGIT_VALUES * runs(), block = gl_WorkGroupSize.x * ITEMS;

@@ -6,6 +6,7 @@
 #define SCREE_QUERIES_TABLES_GLSL
 
 #include "shaders/physics/collide/ray.h"
+#include "shaders/stages/lib/record_readers.glsl"
 
 layout(local_size_x_id = 0) in;
 

@@ -2,7 +2,7 @@
 #ifndef SCREE_RENDER_LIGHT_BOUNDS_H
 #define SCREE_RENDER_LIGHT_BOUNDS_H
 
-#include "shaders/render/detail.h"
+#include "shaders/render/detail/detail.h"
 
 const float NOWHERE = 1e30;
 

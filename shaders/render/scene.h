@@ -11,12 +11,7 @@ layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
 };
 
 #ifdef READS_BODIES
-layout(std430, set = 0, binding = 0) readonly buffer PropertiesTable {
-    BodyProperties properties[];
-};
-layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
-    Pose poses[];
-};
+#include "shaders/render/body_tables.h"
 layout(std430, set = 0, binding = 2) readonly buffer VelocityTable {
     Velocity velocities[];
 };

@@ -2,7 +2,7 @@
 #ifndef SCREE_RENDER_SHADOW_MAP_H
 #define SCREE_RENDER_SHADOW_MAP_H
 
-#include "shaders/render/batch.h"
+#include "shaders/render/bodies/batch.h"
 
 // Lowest byte of the push constant: 0 the sun, 1 the sky straight above.
 bool is_sun() {

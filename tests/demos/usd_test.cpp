@@ -39,8 +39,7 @@ struct LaidOver {
         : options(imported) {
         const std::filesystem::path under = folder.write(name, text);
         world.emplace(load_scene(under, options, nullptr).scene);
-        demos::AnimationRecorder recorder(*world, 1,
-                                          std::make_unique<demos::UsdLayerWriter>(folder / "out/run.usda", under, options));
+        demos::AnimationRecorder recorder(*world, 1, demos::usd_layer_writer(folder / "out/run.usda", under, options));
         for (int i = 0; i < count; ++i) {
             world->step();
             recorder.after_step(*world);

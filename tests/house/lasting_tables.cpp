@@ -44,14 +44,14 @@ TEST_CASE("house: no file lists the lasting tables of rows by hand", "[house]") 
             FAIL_CHECK(house::at(file, 1, "lists them by hand; row_tables has them all"));
 }
 
-// So three files declare a new one, with its record or offset in records.h, and its law's shader and loop use it:
-// tests/house/add_table adds one. strains are of a law of two stages, and have a value at the start.
+// So two files declare a new one, and its law's shader and loop use it: tests/house/add_table adds one. strains are of a law of
+// two stages, and have a value at the start.
 TEST_CASE("house: a lasting table of rows is named by its declarations and by the law that uses it", "[house]") {
     std::set<std::string> naming;
     for (const house::SourceFile& file : house::code_files())
         if (!file.in("tests/") && words_of(house::without_comments(file.text)).contains("strains")) naming.insert(file.path);
     CHECK(naming == std::set<std::string>{"shaders/stages/lib/tables.h", "compute/plan/stage_declarations.cpp",
-                                          "shaders/stages/find_broken.comp", "shaders/stages/break_bodies.comp",
+                                          "shaders/stages/bodies/find_broken.comp", "shaders/stages/bodies/break_bodies.comp",
                                           "compute/cpu/fracture.cpp", "compute/compile/scene_compiler.cpp",
                                           "compute/compile/state_editor.cpp"});
 }

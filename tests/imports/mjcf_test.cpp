@@ -328,14 +328,14 @@ TEST_CASE("imports: what an MJCF file has and scree has not is noted once with i
     says(mjcf("<body><joint/><geom type='plane' size='1 1 1'/></body>"), "a plane is infinite and cannot move");
     says(mjcf("<body><geom type='mesh' mesh='m'/></body>"), "there is no mesh \"m\"");
     says(mjcf("<body><composite type='grid'/></body>"), "composite: is not read");
-    says("<mujoco><tendon><spatial/></tendon></mujoco>", "spatial: scree has none");
+    says("<mujoco><tendon><spatial/></tendon></mujoco>", "spatial: is not read");
     says("<mujoco><option density='1.2'/></mujoco>", "has a fluid all around");
     says("<mujoco><worldbody><include file='../a.xml'/></worldbody></mujoco>", "lies outside of the file's folder");
     says("<mujoco><worldbody><include file='/etc/passwd'/></worldbody></mujoco>", "lies outside of the file's folder");
     says("<mujoco><worldbody></mujoco>", "a.xml:1: an element is closed by another's end tag");
     says("<sdf/>", "a.xml:1: begins with <sdf>; MJCF begins with <mujoco>, URDF with <robot>");
     says(mjcf("<replicate count='1000000'><replicate count='1000000'/></replicate>"), "more than 4000000 elements");
-    says("<mujoco><equality><joint joint1='a'/></equality></mujoco>", "scree has no such equality");
+    says("<mujoco><equality><joint joint1='a'/></equality></mujoco>", "there is no joint \"a\"");
     says(mjcf("<body name='small'><freejoint/><geom size='1e-7'/></body>"), "a.xml:3: body \"small\": /shape/sphere/radius");
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <span>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/world.h"
 #include "tests/imports/import_case.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <variant>
 
 namespace scree::oracle {
@@ -105,6 +106,7 @@ struct AxesOf {
         for (std::size_t k = 0; k < 6; ++k) to.axes[k] = dense(axes[k]);
         to.spins = !six.twist.locked;
     }
+    void operator()(const Coupling&) const { throw std::logic_error("the judge knows no couplings"); }
 };
 
 dquat quaternion(const vec4& q) {

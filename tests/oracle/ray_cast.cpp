@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "tests/oracle/ray_cast.h"
 

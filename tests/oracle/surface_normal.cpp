@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "tests/oracle/ray_cast.h"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "tests/peers/engine.h"
 
 namespace scree::peers {

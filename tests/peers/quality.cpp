@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "demos/program/outputs/table.h"
 #include "tests/peers/race.h"
 

@@ -13,7 +13,7 @@
 #include <memory>
 #include <random>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/mesh.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_triangle.h"
 

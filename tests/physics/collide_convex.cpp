@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_convex.h"
 

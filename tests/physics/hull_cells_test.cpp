@@ -6,7 +6,7 @@
 #include <set>
 
 #include "compute/scene.h"
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/separating_axis.h"
 

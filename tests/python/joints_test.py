@@ -203,5 +203,31 @@ class Control(unittest.TestCase):
         np.testing.assert_allclose(many.origin()[0][:, 0, 0], [1, 2, 3], atol=1e-6)
 
 
+
+class Couplings(unittest.TestCase):
+    def test_gears_a_follower_and_a_tendon(self):
+        scene = scree.Scene(gravity=(0, 0, 0))
+        for i, name in enumerate(("small", "large", "slide")):
+            scene.add(scree.Sphere(0.2), position=(i, 0, 0))
+            kind = scree.Slider() if name == "slide" else scree.Hinge()
+            scene.add_joint(kind, None, i, anchor=(i, 0, 0), axis=(0, 0, 1), name=name)
+        scene.add_joint(scree.Coupling({"small": 20, "large": 50}), name="gear")
+        scene.add_joint(scree.Coupling([("slide", 1), ("large", 0, "twist")], curve=(-0.1, -0.02), offset=0), name="cam")
+        scene.add_joint(scree.Coupling({"small": 1}, limits=(-1, 2), offset=0), name="stop")
+        world = scree.World(scene, backend="cpu", copies=2)
+        self.assertEqual(scree.from_json(scene.to_json()).hash, scene.hash)
+        for _ in range(240):
+            world.apply_joint_forces("small", 5)
+            world.step()
+        angles = world.joint_positions[0]
+        self.assertAlmostEqual(angles[0], 2, delta=1e-3)
+        self.assertAlmostEqual(angles[1], -0.4 * angles[0], delta=1e-5)
+        self.assertAlmostEqual(angles[2], 0.1 * angles[1] + 0.02 * angles[1]**2, delta=1e-5)
+        self.assertAlmostEqual(angles[3], 0, delta=1e-4)
+        self.assertAlmostEqual(angles[5], 2, delta=1e-3)
+        with self.assertRaisesRegex(scree.SceneError, 'no joint named "none"'):
+            scene.add_joint(scree.Coupling({"none": 1}))
+
+
 if __name__ == "__main__":
     unittest.main()

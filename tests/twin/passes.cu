@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/base/record_groups.h"
-#include "shaders/physics/contact/contact_impulse.h"
 #include "shaders/physics/contact/contact_pass.h"
 
 namespace {
@@ -16,7 +16,8 @@ using Quad = uint4;
 // What a scene has, as shaders/stages/lib/features.glsl narrows it.
 constexpr bool everything = TWIN_ALL_FEATURES != 0;
 constexpr unsigned group_shift = GROUP_SHIFT;
-// Quads of a ContactImpulse that the biased pass writes (SOLVED_MEMBERS in pass_contacts.glsl): normal, friction and stretch; rolling.
+// Quads of a ContactImpulse that the biased pass writes (SOLVED_MEMBERS in pass_contacts.glsl): normal, friction and stretch;
+// rolling.
 constexpr unsigned solved = 1u << 0 | 1u << 2 | 1u << 5, rolled = 1u << 3;
 
 struct Tables {
@@ -132,9 +133,9 @@ extern "C" __global__ void __launch_bounds__(128, TWIN_GROUPS) relax_contacts(Ta
     Constraint c = constraint_at(t, i);
     if (everything && leads_in_block(c)) return;
     Impulse impulse = impulse_at(t, i);
-    BlockBodies bodies = relax_bodies(read<BodyMass>(t.masses, c.a, 0), read<BodyForces>(t.forces, c.a, 0),
-                                      read<BodyMass>(t.masses, c.b, 0), read<BodyForces>(t.forces, c.b, 0), impulse,
-                                      load_of_block(t, i, c, impulse), velocities_of(t, c), p);
+    BlockBodies bodies =
+        relax_bodies(read<BodyMass>(t.masses, c.a, 0), read<BodyForces>(t.forces, c.a, 0), read<BodyMass>(t.masses, c.b, 0),
+                     read<BodyForces>(t.forces, c.b, 0), impulse, load_of_block(t, i, c, impulse), velocities_of(t, c), p);
     if (!everything) bodies.part = 1.0f;
     const bool last = (pass & PASS_LAST) != 0u;
     VelocityPair v = bodies.moved;

@@ -7,7 +7,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/tables/state.h"
 #include "compute/vehicle_presets.h"
-#include "compute/world/state_bytes.h"
+#include "compute/world/states/state_bytes.h"
 #include "tests/world/sleepers.h"
 
 namespace scree::tests {

@@ -7,7 +7,7 @@ LAWS_BEGIN
 namespace {
 
 using reference::BlockGroup;
-using reference::BlockTables;
+using scree::TableWords;
 
 struct Member {
     Velocity velocity;  // of the split bodies; in the end, the whole bodies' change
@@ -50,7 +50,7 @@ struct Tile {
 
 // The work of a pass.
 struct Pass {
-    const BlockTables& tables;
+    const TableWords& tables;
     BlockGroup& group;
     const Parameters& p;
     Member* members;
@@ -63,7 +63,7 @@ struct Pass {
 SCREE_INLINE size_t room_for(const BlockShape& shape) {
     return sizeof(Parameters) + shape.bodies * sizeof(Member) + shape.joints * sizeof(JointInLanes) + shape.tiles * sizeof(Tile);
 }
-SCREE_INLINE Pass pass_in(const BlockTables& tables, BlockGroup& group, std::byte* room) {
+SCREE_INLINE Pass pass_in(const TableWords& tables, BlockGroup& group, std::byte* room) {
     Parameters* const p = reinterpret_cast<Parameters*>(room);
     Member* const members = reinterpret_cast<Member*>(p + 1);
     JointInLanes* const joints = reinterpret_cast<JointInLanes*>(members + group.shape.bodies);

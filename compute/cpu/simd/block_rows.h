@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compute/cpu/simd/block_lanes.h"
+#include "compute/cpu/simd/joint_placement.h"
 
 LAWS_BEGIN
 
@@ -19,16 +20,6 @@ struct MemberState {
 static_assert(sizeof(MemberHead) + sizeof(MemberState) == sizeof(BlockBody));
 constexpr size_t state_of_member = sizeof(MemberHead) / sizeof(Words);
 
-// The first members of a Joint.
-struct Placement {
-    uint a, b, block_body_a, block_body_b;
-    vec3 anchor_a;
-    uint flags;
-    vec3 anchor_b;
-    uint next_a;
-    vec4 frame_a, frame_b;
-};
-static_assert(sizeof(Placement) == offsetof(Joint, axes));
 struct JointState {
     Uint active_set, broken, solved_axes;
     Float twist;
@@ -63,7 +54,7 @@ constexpr uint32_t at_rest[8] = {}, pose_of_world[8] = {0, 0, 0, 0, 0, 0, 0, 0x3
 
 // ---- bodies
 // Adds this pass's changes by contacts, whose slots come before those of joints.
-SCREE_INLINE void add_contacts(const BlockTables& tables, uint32_t body, uint32_t blocks, uint32_t* words) {
+SCREE_INLINE void add_contacts(const TableWords& tables, uint32_t body, uint32_t blocks, uint32_t* words) {
     using Eight [[gnu::vector_size(32)]] = float;
     using EightMasks [[gnu::vector_size(32)]] = int32_t;
     const EightMasks moving{-1, -1, -1, 0, -1, -1, -1, 0};
@@ -79,7 +70,7 @@ SCREE_INLINE void add_contacts(const BlockTables& tables, uint32_t body, uint32_
 
 // `after_contacts`: lanes whose bodies are taken after this pass's changes by contacts, and not shared with them.
 SCREE_INLINE void take_member(Pass& pass, uint32_t m, Bool after_contacts) {
-    const BlockTables& tables = pass.tables;
+    const TableWords& tables = pass.tables;
     Member& member = pass.members[m];
     const uint32_t* head_at[lanes];
     for (size_t lane = 0; lane < lanes; ++lane) {

@@ -214,7 +214,7 @@ SCREE_INLINE void begin(Pass& pass, Bool after_contacts) {
     for (uint32_t j = 0; j < pass.group.shape.joints; ++j) take_joint(pass, j);
 }
 
-bool solve(const BlockTables& tables, BlockGroup& group, std::byte* room) {
+bool solve(const TableWords& tables, BlockGroup& group, std::byte* room) {
     Pass pass = pass_in(tables, group, room);
     begin(pass, true);
     if (!solve_rounds(pass, true)) return false;
@@ -224,7 +224,7 @@ bool solve(const BlockTables& tables, BlockGroup& group, std::byte* room) {
     return true;
 }
 
-bool relax(const BlockTables& tables, BlockGroup& group, std::byte* room, bool last) {
+bool relax(const TableWords& tables, BlockGroup& group, std::byte* room, bool last) {
     Pass pass = pass_in(tables, group, room);
     Masks of_struck;
     for (size_t lane = 0; lane < lanes; ++lane) of_struck[lane] = group.struck[lane] ? -1 : 0;

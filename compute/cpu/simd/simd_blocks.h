@@ -5,16 +5,11 @@
 #include <cstdint>
 
 #include "compute/tables/block_shape.h"
+#include "compute/tables/table_words.h"
 
 namespace scree::reference {
 
 constexpr int joint_rounds = 8, settling_round = 2;
-
-// Tables of a State as 32-bit words.
-struct BlockTables {
-    const std::uint32_t *parameters, *poses, *velocities, *masses, *slot_ends;
-    std::uint32_t *joints, *block_bodies, *slots;
-};
 
 // At most as many blocks as there are lanes; each moves. Lanes beyond `count` repeat the first block, and write nothing.
 struct BlockGroup {
@@ -30,9 +25,9 @@ struct BlockGroup {
 struct WideBlockStages {
     std::size_t lanes;
     std::size_t (*bytes)(const BlockShape& shape);  // of room, aligned to 64 bytes
-    bool (*solve)(const BlockTables&, BlockGroup&, std::byte* room);
+    bool (*solve)(const TableWords&, BlockGroup&, std::byte* room);
     // In the last substep without the stock that is taken of joints and what follows from it: normal sums and slots.
-    bool (*relax)(const BlockTables&, BlockGroup&, std::byte* room, bool last);
+    bool (*relax)(const TableWords&, BlockGroup&, std::byte* room, bool last);
 };
 
 // Those of this processor for `blocks` blocks, with at most `most` lanes; null if single blocks are faster.

@@ -1,4 +1,4 @@
-// Selects the widest SIMD stages of this processor, and views a state's tables as words.
+// Selects the widest SIMD stages of this processor, and what they take of a state.
 #include "compute/cpu/simd/simd_stages.h"
 
 #include <algorithm>
@@ -24,30 +24,10 @@ int widest(int most) {
 }  // namespace
 
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
-    const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
-    WideTables tables{};
-    tables.items = items.data();
-    tables.parameters = words(state.parameters);
-    tables.properties = words(state.properties);
-    tables.slot_ends = words(state.slot_ends);
-    tables.contacts_before = words(state.contacts_before);
-    tables.impulses_before = words(state.impulses_before);
-    tables.contact_pairs = state.contact_pairs.data();
-    tables.contact_slots = state.contact_slots.data();
-    tables.pairs = words(state.pairs);
-    tables.manifolds = words(state.scratch.pair_manifolds);
-    tables.point_counts = words(state.point_counts);
-    tables.contacts = words(state.contacts);
-    tables.constraints = words(state.constraints);
-    tables.bounds = words(state.bounds);
-    tables.poses = words(state.poses);
-    tables.velocities = words(state.velocities);
-    tables.masses = words(state.masses);
-    tables.forces = words(state.forces);
-    tables.impulses = words(state.impulses);
-    tables.impacts = state.bounces() ? words(state.impacts) : nullptr;
-    tables.slots = words(state.slots);
-    tables.impact_debts = state.impact_debts.data();
+    WideTables tables{state.words(), items.data()};
+    tables.manifolds = reinterpret_cast<std::uint32_t*>(state.scratch.pair_manifolds.data());
+    if (!state.bounces()) tables.impacts = nullptr;
+    tables.carried = nullptr;
     tables.groups = state.scratch.lane_contacts.empty() ? nullptr : state.scratch.lane_contacts.front().words;
     tables.unloaded = state.scratch.unloaded_groups.data();
     tables.body_groups = state.scratch.lane_bodies.empty() ? nullptr : state.scratch.lane_bodies.front().words;

@@ -6,8 +6,12 @@
 
 #include "shaders/physics/joint/joint_matrix.h"
 #include "shaders/physics/joint/joint_turns.h"
+
 #undef float
 #undef bool
+
+// Uses these types.
+#include "compute/cpu/simd/joint_placement.h"
 
 LAWS_BEGIN
 
@@ -19,16 +23,6 @@ using reference::WideJoint;
 
 static_assert(lanes == reference::lanes_of_joints);
 
-// The first members of a Joint.
-struct Placement {
-    uint a, b, block_body_a, block_body_b;
-    vec3 anchor_a;
-    uint flags;
-    vec3 anchor_b;
-    uint next_a;
-    vec4 frame_a, frame_b;
-};
-static_assert(sizeof(Placement) == offsetof(Joint, axes));
 constexpr size_t axes_at = offsetof(Joint, axes) / sizeof(Words), rows_at = offsetof(Joint, rows) / sizeof(Words);
 constexpr size_t rotors_at = offsetof(Joint, rotors) / sizeof(Words), words_of_rotor = sizeof(JointRotor) / sizeof(Words);
 constexpr size_t twist_at = offsetof(Joint, twist) / sizeof(Words);

@@ -7,6 +7,7 @@
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/body/motion.h"
 #include "shaders/physics/collide/collide_box_box.h"
 #include "shaders/physics/collide/collide_box_plane.h"
@@ -20,7 +21,6 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/contact/contact.h"
 #include "shaders/physics/contact/contact_constraint.h"
-#include "shaders/physics/contact/contact_impulse.h"
 #include "shaders/physics/contact/contact_pass.h"
 #include "shaders/physics/contact/persistence.h"
 #include "shaders/physics/continuous/clamping.h"

@@ -4,31 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "compute/tables/table_words.h"
+
 namespace scree::reference {
 
-// Tables of a State as 32-bit words.
-struct WideTables {
+// The tables, and what else lanes take. Of the tables, `manifolds` has one of each pair. Null are `constraints` where only the
+// passes of lanes read them, in `groups`; `impacts` if no contact has restitution; and `carried` (the normal impulse of each
+// contact in the step, N s) if no body may break.
+struct WideTables : TableWords {
     const std::uint32_t* items;  // indices of the pairs, contacts or bodies to process
-    const std::uint32_t* parameters;
-    const std::uint32_t* properties;
-    const std::uint32_t* slot_ends;
-    const std::uint32_t* contacts_before;  // of the last step
-    const std::uint32_t* impulses_before;
-    const std::uint32_t* contact_pairs;
-    const std::uint32_t* contact_slots;
-    std::uint32_t* pairs;
-    std::uint32_t* manifolds;
-    std::uint32_t* point_counts;
-    std::uint32_t* contacts;
-    std::uint32_t* constraints;  // null: only the passes of lanes read them, in `groups`
-    std::uint32_t* bounds;
-    std::uint32_t* poses;
-    std::uint32_t* velocities;
-    std::uint32_t* masses;
-    std::uint32_t* forces;
-    std::uint32_t* impulses;
-    std::uint32_t* impacts;  // null: no contact has restitution
-    std::uint32_t* slots;
     // BoxPairs: of separate_boxes for each of `items`, of collide_boxes those at `places`.
     std::uint32_t* out = nullptr;
     const std::uint32_t* places = nullptr;
@@ -41,10 +25,8 @@ struct WideTables {
     bool sums_impacts = true;              // BodyForces.impact_weight is written: some body may be in an impact, or `watched`
     bool warm_starts = false;              // preparation warm-starts contacts from the last step, and is that of all contacts
     bool prefetches = false;  // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
-    float* impact_debts = nullptr;  // of each body, J (restitution.h)
-    float* carried = nullptr;       // normal impulse of each contact in the step, N s; null if no body may break
-    bool first = false;             // the first substep of a step
-    bool last = false;              // the last one
+    bool first = false;       // the first substep of a step
+    bool last = false;        // the last one
 };
 
 constexpr std::size_t words_of_body = 13;  // in body_groups

@@ -168,6 +168,7 @@ struct vec4 {
 };
 struct uvec4 {
     Uint x, y, z, w;
+    uvec4() = default;
     SCREE_INLINE explicit uvec4(Uint a) : x(a), y(a), z(a), w(a) {}
     SCREE_INLINE Uint& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
     SCREE_INLINE Uint operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }

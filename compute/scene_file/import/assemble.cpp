@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "compute/scene/double_quaternion.h"
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/import/model.h"
 #include "compute/schema/body.h"

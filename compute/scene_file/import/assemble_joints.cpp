@@ -63,7 +63,8 @@ struct Made {
     JointKind kind;
     dvec3 anchor;  // file's world, all coordinates 0
     dquat turn;
-    std::optional<float> angle{};  // at the beginning, about x
+    std::optional<float> angle{};                      // at the beginning, about x
+    std::vector<std::pair<JointAxis, double>> axes{};  // of each of the body's joints, with its sign; none: the kind's own
 };
 
 // A scene is told the angle of a hinge unless the poses and limits do.
@@ -131,13 +132,17 @@ std::optional<Made> together(const std::vector<ModelJoint>& joints, const Placed
     SixDof kind{locked(), locked(), locked(), locked(), locked(), locked()};
     Axis* const along[3] = {&kind.x, &kind.y, &kind.z};
     Axis* const about[3] = {&kind.twist, &kind.swing_y, &kind.swing_z};
+    std::vector<std::pair<JointAxis, double>> places(joints.size());
     for (const auto& [group, axes] : {std::pair{&slides, along}, std::pair{&hinges, about}}) {
         for (const ModelJoint* joint : *group) {
             int found = -1;
             for (int k = 0; k < 3; ++k)
                 if (std::abs(glm::dot(axis(joint), frame[k])) > aligned) found = k;
             if (found < 0 || !axes[found]->locked) return std::nullopt;
-            *axes[found] = axis_of(*joint, glm::dot(axis(joint), frame[found]) > 0 ? 1 : -1, notes);
+            const double sign = glm::dot(axis(joint), frame[found]) > 0 ? 1 : -1;
+            *axes[found] = axis_of(*joint, sign, notes);
+            const int first = static_cast<int>(group == &slides ? JointAxis::x : JointAxis::twist);
+            places[static_cast<std::size_t>(joint - joints.data())] = {static_cast<JointAxis>(first + found), sign};
         }
     }
     if (hinges.size() == 3)
@@ -145,6 +150,7 @@ std::optional<Made> together(const std::vector<ModelJoint>& joints, const Placed
                   "three at one point become a joint of six degrees; limits and springs are those of its swing and twist");
     Made made{kind, body * (hinges.empty() ? joints[0] : *hinges[0]).anchor, body.turn * turn_of(x, y)};
     if (!hinges.empty()) made.angle = angle_of(*hinges.back());
+    made.axes = std::move(places);
     return made;
 }
 
@@ -187,9 +193,17 @@ void add_joints_of(Assembly& all, std::size_t index, const std::vector<ModelMoti
     };
     if (!all.model.joined_to_world_collide && all.owner[body.parent] == world_body)
         for (const std::size_t fixed : all.bodies[body.parent]) exclude(all, fixed, child.scene_body);
-    if (body.joints.size() == 1)
-        return add(single(body.joints[0], all.zero[index], all.notes), parent, child, body.joints[0].name, body.joints[0].origin);
+    const auto is_at = [&](std::size_t joint, const Made& made, std::size_t k) {
+        const auto [axis, sign] = made.axes.empty() ? std::pair{main_axis(made.kind), 1.0} : made.axes[k];
+        all.places[{index, joint}] = {all.scene.joints.size(), axis, sign};
+    };
+    if (body.joints.size() == 1) {
+        const Made made = single(body.joints[0], all.zero[index], all.notes);
+        is_at(0, made, 0);
+        return add(made, parent, child, body.joints[0].name, body.joints[0].origin);
+    }
     if (const auto made = together(body.joints, all.zero[index], all.notes)) {
+        for (std::size_t k = 0; k < body.joints.size(); ++k) is_at(k, *made, k);
         std::string names;
         for (const ModelJoint& joint : body.joints) names += (names.empty() ? "" : "+") + joint.name;
         return add(*made, parent, child, names, body.joints[0].origin);
@@ -201,7 +215,9 @@ void add_joints_of(Assembly& all, std::size_t index, const std::vector<ModelMoti
         End after = child;
         if (i + 1 < body.joints.size())
             after = {add_link(all, index, moved(starts[body.parent], body, true, i + 1).placed), all.zero[index]};
-        add(single(body.joints[i], all.zero[index], all.notes), before, after, body.joints[i].name, body.joints[i].origin);
+        const Made made = single(body.joints[i], all.zero[index], all.notes);
+        is_at(i, made, 0);
+        add(made, before, after, body.joints[i].name, body.joints[i].origin);
         before = after;
     }
     if (!all.model.joined_collide) exclude(all, parent.scene_body, child.scene_body);
@@ -225,6 +241,29 @@ void add_tie(Assembly& all, const ModelTie& tie) {
     all.scene.joints.push_back(std::move(joint));
 }
 
+void add_coupling(Assembly& all, const ModelCoupling& model) {
+    Coupling coupling;
+    coupling.offset = static_cast<float>(model.offset);
+    for (const ModelCoupling::Term& term : model.terms) {
+        const auto found = all.places.find({term.body, term.joint});
+        if (found == all.places.end()) refuse(model.origin, "is of a joint of what never moves");
+        const Assembly::JointPlace& at = found->second;
+        coupling.joints.push_back({at.joint, static_cast<float>(at.sign * term.factor), at.axis});
+        double sign = at.sign;
+        coupling.curve.clear();
+        for (const double one : model.curve) {
+            coupling.curve.push_back(static_cast<float>(sign * one));
+            sign *= at.sign;
+        }
+    }
+    if (!model.locked) coupling.sum = axis_of(model.sum, 1, all.notes);
+    Joint joint;
+    joint.name = model.name;
+    joint.kind = coupling;
+    all.joint_origins.push_back(model.origin);
+    all.scene.joints.push_back(std::move(joint));
+}
+
 }  // namespace
 
 void add_joints(Assembly& all) {
@@ -232,6 +271,7 @@ void add_joints(Assembly& all) {
     for (std::size_t b = 1; b < all.model.bodies.size(); ++b)
         if (!all.model.bodies[b].joints.empty()) add_joints_of(all, b, starts);
     for (const ModelTie& tie : all.model.ties) add_tie(all, tie);
+    for (const ModelCoupling& coupling : all.model.couplings) add_coupling(all, coupling);
     for (const auto& [first, second] : all.model.exclusions)
         for (const std::size_t a : all.bodies[first])
             for (const std::size_t b : all.bodies[second]) exclude(all, a, b);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 
-#include "compute/scene/decomposed.h"
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
+#include "compute/scene/meshes/decomposed.h"
+#include "compute/scene/meshes/hull.h"
+#include "compute/scene/meshes/mesh.h"
 #include "host/files/file.h"
 
 namespace scree::imports {

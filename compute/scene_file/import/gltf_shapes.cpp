@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/portable_math.h"
 
 namespace scree::imports {

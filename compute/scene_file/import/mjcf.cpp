@@ -19,13 +19,13 @@ const std::vector<std::string> actuator_tags = {"general", "motor",    "position
 
 }  // namespace
 
-Element Mjcf::element(const host::XmlElement& tree, const Where& where) {
+Element Mjcf::element(const host::XmlElement& tree, const Where& where, const std::string& tag) {
     const std::string* chosen = nullptr;
     for (const host::XmlAttribute& one : tree.attributes)
         if (one.name == "class") chosen = &one.value;
     Element bare(tree, notes_);
     const OfTags& tags = defaults_of(bare, chosen ? *chosen : where.childclass.empty() ? "main" : where.childclass);
-    const auto found = tags.find(tree.name);
+    const auto found = tags.find(tag);
     Element result(tree, notes_, found == tags.end() ? nullptr : &found->second);
     result.pass({"class"});
     return result;
@@ -217,7 +217,7 @@ void Mjcf::read_material(const host::XmlElement& tree) {
 
 void Mjcf::note_section(const host::XmlElement& tree) {
     Element element(tree, notes_);
-    if (tree.name == "tendon" || tree.name == "deformable")
+    if (tree.name == "deformable")
         for (const host::XmlElement& child : tree.children)
             Element(child, notes_).refuse("scree has none; remove it and what refers to it");
     if (tree.name == "extension")
@@ -227,7 +227,7 @@ void Mjcf::note_section(const host::XmlElement& tree) {
         if (tree.name == "sensor")
             Element(child, notes_).note("", "scree has none of MuJoCo's sensors; World's queries tell as much");
     }
-    if (tree.name == "sensor" || tree.name == "tendon" || tree.name == "deformable" || tree.name == "extension") return;
+    if (tree.name == "sensor" || tree.name == "deformable" || tree.name == "extension") return;
     if (std::find(known.begin(), known.end(), tree.name) != known.end())
         element.note("", "is left out; no motion depends on it");
     else
@@ -236,8 +236,8 @@ void Mjcf::note_section(const host::XmlElement& tree) {
 
 SceneDocument Mjcf::read(host::XmlElement root) {
     include(root, 0);
-    static const std::vector<std::string> read_here = {"compiler", "option",   "default",  "asset",   "worldbody",
-                                                       "contact",  "equality", "actuator", "keyframe"};
+    static const std::vector<std::string> read_here = {"compiler", "option",   "default",  "asset",    "worldbody",
+                                                       "contact",  "equality", "actuator", "keyframe", "tendon"};
     // In the order in which they depend on each other, wherever they stand.
     const auto each = [&](const char* name, const auto& take) {
         for (const host::XmlElement& child : root.children)
@@ -255,10 +255,12 @@ SceneDocument Mjcf::read(host::XmlElement root) {
     relate_classes(root);
     scale_masses();
     each("contact", [&](const auto& tree) { read_contact(tree); });
+    each("tendon", [&](const auto& tree) { read_tendons(tree); });
     each("equality", [&](const auto& tree) { read_equality(tree); });
     each("keyframe", [&](const auto& tree) { read_keyframes(tree); });
     take_keyframe();
     each("actuator", [&](const auto& tree) { read_actuators(tree); });
+    finish_tendons();
     if (!gravity_) model_.gravity = dvec3(0);
     SceneDocument document;
     document.scene = assemble(model_, options_, notes_);

@@ -60,7 +60,8 @@ private:
     void read_terrain(const host::XmlElement& tree);
     void read_material(const host::XmlElement& tree);
     void note_section(const host::XmlElement& tree);
-    Element element(const host::XmlElement& tree, const Where& where);
+    Element element(const host::XmlElement& tree, const Where& where) { return element(tree, where, tree.name); }
+    Element element(const host::XmlElement& tree, const Where& where, const std::string& tag);  // of these defaults
     const OfTags& defaults_of(const Element& element, const std::string& name);
     // mjcf_bodies.cpp: the tree of bodies
     void read_children(const host::XmlElement& tree, const Where& where);
@@ -90,10 +91,19 @@ private:
     std::size_t body_named(Element& element, const char* attribute, bool optional = false);
     void read_keyframes(const host::XmlElement& tree);
     void take_keyframe();
+    // mjcf_tendons.cpp
+    ModelCoupling::Term joint_term(Element& element, const char* attribute, double factor);
+    void read_tendons(const host::XmlElement& tree);
+    void read_tendon(const host::XmlElement& tree);
+    std::size_t tendon_named(Element& element, const char* attribute);
+    void read_coupling(const host::XmlElement& tree);
+    void finish_tendons();
     // mjcf_actuators.cpp
     void read_actuators(const host::XmlElement& tree);
     void read_actuator(const host::XmlElement& tree);
     double reflected_inertia(const JointPlace& place) const;
+    double reflected_inertia(const ModelCoupling& tendon) const;
+    ModelJoint& driven_joint(Element& actuator, const std::string& name);
 
     Folder& folder_;
     const ImportOptions& options_;
@@ -111,6 +121,8 @@ private:
     bool timestep_ = false;
     std::map<std::string, std::size_t> bodies_named_;
     std::map<std::string, JointPlace> joints_named_;
+    std::vector<ModelCoupling> tendons_;
+    std::map<std::string, std::size_t> tendons_named_;
     std::vector<bool> has_inertial_;
     std::vector<GeomClass> classes_{{1, 1, ""}};
     std::set<std::string> paired_;

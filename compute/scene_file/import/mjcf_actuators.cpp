@@ -52,6 +52,25 @@ double Mjcf::reflected_inertia(const JointPlace& place) const {
     return sum;
 }
 
+// Of a tendon whose joints move each by itself.
+double Mjcf::reflected_inertia(const ModelCoupling& tendon) const {
+    double inverse = 0;
+    for (const ModelCoupling::Term& term : tendon.terms)
+        inverse += term.factor * term.factor / std::max(1e-12, reflected_inertia(JointPlace{term.body, term.joint}));
+    return 1 / inverse;
+}
+
+ModelJoint& Mjcf::driven_joint(Element& actuator, const std::string& name) {
+    if (name.empty()) actuator.refuse("acts on no joint and no tendon, which it must here");
+    const auto found = joints_named_.find(name);
+    if (found == joints_named_.end()) actuator.refuse("there is no joint \"" + name + "\"");
+    ModelBody& body = model_.bodies[found->second.body];
+    if (found->second.joint >= body.joints.size()) actuator.refuse("acts on a free joint, which it cannot here");
+    ModelJoint& joint = body.joints[found->second.joint];
+    if (joint.kind == ModelJoint::Kind::ball) actuator.refuse("acts on a ball joint, which it cannot here");
+    return joint;
+}
+
 void Mjcf::read_actuator(const host::XmlElement& tree) {
     Element actuator = element(tree, {});
     const std::string& kind = tree.name;
@@ -60,28 +79,25 @@ void Mjcf::read_actuator(const host::XmlElement& tree) {
     static const std::vector<std::string> known = {"general",     "motor",  "position", "velocity",
                                                    "intvelocity", "damper", "cylinder"};
     if (std::find(known.begin(), known.end(), kind) == known.end()) actuator.refuse("is no actuator that is known here");
-    if (actuator.has("tendon")) actuator.refuse("tendon", "scree has none");
     actuator.ignore({"group", "user", "lengthrange", "cranklength", "refsite", "delay", "nsample", "interp"},
                     "is left out; no motion depends on it");
     actuator.ignore({"armature", "damping"}, "of an actuator is left out");
+    const bool on_tendon = actuator.has("tendon");
     const std::string name = actuator.has("joint") ? actuator.text("joint") : actuator.text("jointinparent");
-    if (name.empty()) actuator.refuse("acts on no joint, which it must here");
-    const auto found = joints_named_.find(name);
-    if (found == joints_named_.end()) actuator.refuse("there is no joint \"" + name + "\"");
-    ModelBody& body = model_.bodies[found->second.body];
-    if (found->second.joint >= body.joints.size()) actuator.refuse("acts on a free joint, which it cannot here");
-    ModelJoint& joint = body.joints[found->second.joint];
-    if (joint.kind == ModelJoint::Kind::ball) actuator.refuse("acts on a ball joint, which it cannot here");
+    ModelJoint& joint = on_tendon ? tendons_[tendon_named(actuator, "tendon")].sum : driven_joint(actuator, name);
 
     const auto gears = actuator.numbers("gear", 1, 6);
     const double gear = gears.empty() ? 1 : gears[0];
+    const auto inertia = [&] {
+        return on_tendon ? reflected_inertia(tendons_[tendon_named(actuator, "tendon")])
+                         : reflected_inertia(joints_named_.at(name));
+    };
     Law law;
     if (kind == "general") law = general_law(actuator);
     if (kind == "position" || kind == "intvelocity") {
         const double kp = actuator.number("kp", 1), ratio = actuator.number("dampratio", 0);
         double kv = actuator.number("kv", 0);
-        if (ratio != 0)
-            kv = ratio * 2 * std::sqrt(std::max(0.0, kp * reflected_inertia(found->second))) / std::max(1e-9, std::abs(gear));
+        if (ratio != 0) kv = ratio * 2 * std::sqrt(std::max(0.0, kp * inertia())) / std::max(1e-9, std::abs(gear));
         law = {kp, 0, -kp, -kv};
         actuator.ignore({"timeconst", "inheritrange"}, "is left out: the control acts at once");
         actuator.pass({"actrange", "actlimited", "actearly"});

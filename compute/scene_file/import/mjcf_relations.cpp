@@ -55,6 +55,10 @@ void Mjcf::read_equality(const host::XmlElement& tree) {
             element.note("active", "is false: it is left out");
             continue;
         }
+        if (child.name == "joint" || child.name == "tendon") {
+            read_coupling(child);
+            continue;
+        }
         const bool weld = child.name == "weld";
         if (!weld && child.name != "connect") element.refuse("scree has no such equality; remove it, or set active to false");
         if (element.has("site1")) element.refuse("site1", "is not read; name bodies");

@@ -1,6 +1,7 @@
 // A mechanism as files of robots say it: a tree of bodies with joints to their parents. assemble() makes a scene of it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,9 +75,25 @@ struct ModelTie {
     std::optional<Placed> b_in_a{};  // of a weld; none: as they are
 };
 
+// The sum of factor times coordinate of joints, less the offset, is 0; or moves by limits and springs, those of `sum`.
+struct ModelCoupling {
+    struct Term {
+        std::size_t body = 0, joint = 0;
+        double factor = 1;
+    };
+    Origin origin;
+    std::string name;
+    std::vector<Term> terms;
+    std::vector<double> curve;  // of the last in place of its factor: coefficients of the first power and higher ones
+    double offset = 0;
+    bool locked = true;
+    ModelJoint sum{};
+};
+
 struct Model {
     std::vector<ModelBody> bodies{ModelBody{}};  // the first is the world; parents come first
     std::vector<ModelTie> ties;
+    std::vector<ModelCoupling> couplings;
     std::vector<std::pair<std::size_t, std::size_t>> exclusions;
     std::vector<std::vector<bool>> collides{{true}};  // of each two classes of geometry; symmetric
     dvec3 gravity{0, 0, -9.81};                       // m/s^2
@@ -98,6 +115,12 @@ struct Assembly {
     std::vector<std::vector<std::size_t>> bodies;  // of each of the model's bodies: indices in the scene
     std::vector<Placed> frames;                    // of an owner: the scene body's frame, until it is checked, in its own
     std::vector<Origin> origins, joint_origins;    // of the scene's bodies and joints
+    struct JointPlace {
+        std::size_t joint = 0;
+        JointAxis axis = JointAxis::twist;
+        double sign = 1;  // -1: the scene's axis points the other way
+    };
+    std::map<std::pair<std::size_t, std::size_t>, JointPlace> places{};  // of a body's joint in the scene
     Scene scene{};
 };
 void add_joints(Assembly& assembly);  // and ties, and exclusions

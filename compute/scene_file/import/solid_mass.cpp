@@ -5,7 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 
 namespace scree::imports {
 

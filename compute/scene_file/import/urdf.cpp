@@ -33,6 +33,7 @@ private:
     std::string root_link(const host::XmlElement& root) const;
     void add_link(const std::string& name, std::size_t parent, const host::XmlElement* joint);
     void finish_base();
+    void read_mimics();
     void read_joint(const host::XmlElement& tree, ModelBody& body);
     void read_axis(const host::XmlElement& tree, ModelJoint& joint);
     void read_link(const host::XmlElement& tree, ModelBody& body);
@@ -51,6 +52,12 @@ private:
     std::map<std::string, std::vector<Child>> children_;
     std::set<std::string> is_child_;
     std::map<std::string, vec3> colors_;  // sRGB, of materials by name
+    struct Mimic {
+        const host::XmlElement* element;
+        std::string joint;
+    };
+    std::map<std::string, ModelCoupling::Term> joints_;  // with one axis
+    std::vector<Mimic> mimics_;
     int depth_ = 0;
 };
 
@@ -255,7 +262,6 @@ void Urdf::read_joint(const host::XmlElement& tree, ModelBody& body) {
     for (const host::XmlElement& child : tree.children) {
         if (std::find(known.begin(), known.end(), child.name) == known.end())
             Element(child, notes_).note("", "is left out; it is for controllers");
-        if (child.name == "mimic") Element(child, notes_).note("", "is left out: the joint moves by itself");
     }
     body.placed = origin(tree);
     if (type == 0) return;
@@ -291,7 +297,35 @@ void Urdf::read_joint(const host::XmlElement& tree, ModelBody& body) {
         if (effort > 0 && type != 5) joint.effort = effort;
         if (effort > 0 && type == 5) bounds.note("effort", "of a planar joint is left out; give drives a max_force");
     }
+    const host::XmlElement* mimic = child_of(tree, "mimic");
+    if (type != 5)
+        joints_[joint.name] = {model_.bodies.size(), 0};
+    else if (mimic)
+        Element(*mimic, notes_).note("", "of a planar joint is left out: it moves by itself");
+    if (mimic && type != 5) mimics_.push_back({mimic, joint.name});
     body.joints.push_back(std::move(joint));
+}
+
+// A joint's coordinate is multiplier times another's, plus the offset.
+void Urdf::read_mimics() {
+    for (const Mimic& mimic : mimics_) {
+        Element element(*mimic.element, notes_);
+        const std::string name = element.text("joint");
+        if (name.empty()) element.refuse("names no \"joint\"");
+        const double multiplier = element.number("multiplier", 1);
+        ModelCoupling coupling;
+        coupling.origin = element.origin();
+        coupling.name = mimic.joint + " mimics " + name;
+        coupling.offset = element.number("offset", 0);
+        element.finish();
+        if (name == mimic.joint) element.refuse("joint", "is the joint itself");
+        const auto found = joints_.find(name);
+        if (found == joints_.end()) element.refuse("joint", "there is no joint \"" + name + "\" with one axis");
+        const ModelCoupling::Term& own = joints_.at(mimic.joint);
+        coupling.terms.push_back({own.body, own.joint, 1});
+        if (multiplier != 0) coupling.terms.push_back({found->second.body, found->second.joint, -multiplier});
+        model_.couplings.push_back(std::move(coupling));
+    }
 }
 
 void Urdf::add_link(const std::string& name, std::size_t parent, const host::XmlElement* joint) {
@@ -396,6 +430,7 @@ SceneDocument Urdf::read(const host::XmlElement& root) {
     if (model_.bodies.size() != links_.size() + 1)
         element.refuse(std::to_string(links_.size() + 1 - model_.bodies.size()) + " links hang on each other in a circle");
     finish_base();
+    read_mimics();
     SceneDocument document;
     document.scene = assemble(model_, options_, notes_);
     return document;

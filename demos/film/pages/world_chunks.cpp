@@ -7,7 +7,7 @@
 #include <tuple>
 #include <variant>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/tables/state.h"
 #include "host/canvas/colors.h"
@@ -344,9 +344,9 @@ void WorldChunks::add_joints(ChunkBytes& to, const World& world, const FrameUnit
     const std::vector<JointState> joints = world.joints();
     std::vector<float> forces;
     BitRow broken;
-    for (const JointState& joint : joints) {
-        forces.push_back(glm::length(joint.force));
-        broken.add(joint.broken);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        forces.push_back(glm::length(joints[j].force));
+        broken.add(joints[j].broken || std::holds_alternative<Coupling>(world.scene().joints[j].kind));  // has no place
     }
     to.count(joints.size());
     to.part(broken.row);

@@ -10,8 +10,8 @@
 #include <variant>
 
 #include "compute/compile/scene_compiler.h"
-#include "compute/scene/body_validation.h"
 #include "compute/scene/shape_geometry.h"
+#include "compute/scene/validation/body_validation.h"
 
 namespace scree::demos {
 

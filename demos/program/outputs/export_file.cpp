@@ -85,7 +85,7 @@ Animation::Animation(const ExportOptions& options, const World& world) {
     if (options.file.empty()) return;
     std::unique_ptr<AnimationWriter> writer;
     if (options.file.ends_with(".usda") && !options.over.empty() && options.over != "none") {
-        writer = std::make_unique<UsdLayerWriter>(options.file, options.over, options.imported);
+        writer = usd_layer_writer(options.file, options.over, options.imported);
     } else if (options.file.ends_with(".usda")) {
         writer = std::make_unique<UsdWriter>(options.file, UsdOptions{options.clip});
     } else {

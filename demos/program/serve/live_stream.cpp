@@ -114,9 +114,10 @@ void LiveStream::tick(World& world, const std::vector<Audience>& audiences) {
     moment_.broken = {};
     moment_.has_joints = !world.scene().joints.empty();
     if (moment_.has_joints)
-        for (const JointState& joint : world.joints()) {
+        for (std::size_t j = 0; const JointState& joint : world.joints()) {
+            const bool has_place = !std::holds_alternative<Coupling>(world.scene().joints[j++].kind);
             moment_.joint_forces.push_back(glm::length(joint.force));
-            moment_.broken.add(joint.broken);
+            moment_.broken.add(joint.broken || !has_place);
         }
     moment_.camera.reset();
     if (options_.camera) moment_.camera = options_.camera(world.time());

@@ -165,13 +165,13 @@ void Panel::show_chooser(Interaction& interaction) {
     if (interaction.message().empty()) chooser.hide();
 }
 
-bool Panel::closes_something() {
+bool Panel::closes_something(bool edits_text) {
     if (list_open_ && shown) return true;  // Dear ImGui gets the key, too
     if (chooser.shown()) {
         chooser.hide();
         return true;
     }
-    if (ImGui::GetIO().WantTextInput) return true;  // a number that is being written
+    if (edits_text) return true;  // a number that is being written
     return std::exchange(help_shown, false);
 }
 

@@ -37,8 +37,8 @@ public:
     void lay_out_legend(const host::ColorScale& scale, const std::string& caption) const;
     void tell(std::string message);  // shown for a while
 
-    // Escape: whether a list or the chooser of files was open, and closes.
-    bool closes_something();
+    // Escape: whether it ends an edit, or closes a list, the chooser of files or the help.
+    bool closes_something(bool edits_text);
 
     bool shown = true;
     bool help_shown = false;

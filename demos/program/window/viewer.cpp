@@ -87,7 +87,7 @@ void Viewer::take_events(double wait) {
             interaction_.on(event);
             continue;
         }
-        if (event.key == host::Key::escape && panel_.closes_something()) continue;
+        if (event.key == host::Key::escape && panel_.closes_something(host::Window::edits_text())) continue;
         if (!panel_.chooser.shown()) press_key(event);  // what is typed there is no command
     }
 }

@@ -14,7 +14,7 @@ from scree import _native
 from scree._errors import CheckpointError, DeviceError, SceneError
 from scree._native import version as __version__
 from scree.camera import Camera, Picture, write_png
-from scree.joints import Axis, Ball, ConeTwist, Distance, Fixed, Hinge, JointKind, Limits, Motor, SixDof, Slider, Spring
+from scree.joints import Axis, Ball, ConeTwist, Coupling, Distance, Fixed, Hinge, JointKind, Limits, Motor, SixDof, Slider, Spring
 from scree.measures import Measures, MeasureTable
 from scree.recording import Recording, View
 from scree.scene import Scene, demo, demos, from_json, load, schema
@@ -22,7 +22,7 @@ from scree.shapes import (Box, Capsule, Compound, Cone, Cylinder, Decompose, Ell
                           Shape, Sphere, Tyre)
 from scree.world import DebugDrawing, EventKind, Export, Tables, World
 
-__all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Cylinder", "DebugDrawing", "Decompose", "DeviceError",
+__all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Coupling", "Cylinder", "DebugDrawing", "Decompose", "DeviceError",
            "Distance", "Ellipsoid", "EventKind", "Export", "Filter", "FilterGroups", "Fixed", "Fracture", "HeightField", "Hinge", "Hull", "JointKind", "Limits",
            "MeasureTable", "Measures", "Mesh", "Motor", "Part", "Picture", "Plane", "Recording", "Scene", "SceneError", "Shape", "SixDof", "Slider", "Sphere", "Spring", "Tables",
            "Tyre", "View", "World", "__version__", "demo", "demos", "from_json", "load", "schema", "write_png"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Any, Dict, Optional, Tuple, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from scree.shapes import _Described
 
@@ -156,3 +156,34 @@ class SixDof(JointKind):
     twist: Axis = dataclasses.field(default_factory=Axis)
     swing_y: Axis = dataclasses.field(default_factory=Axis)
     swing_z: Axis = dataclasses.field(default_factory=Axis)
+
+
+@dataclass(frozen=True)
+class Coupling(JointKind):
+    """Couples the axes of other joints: the sum of factor times coordinate, less offset, is 0. It has no bodies and no anchor.
+
+    joints: {joint: factor} or [(joint, factor), (joint, factor, "twist"), ...], each an index or a name: gears of 20 and 40 teeth that
+    mesh are {"left": 20, "right": 40}; a finger that follows another, {"right": 1, "left": -1}. curve: of the last joint in place of its
+    factor, the coefficients of its coordinate's first power to the fourth. offset: None for the sum at the start. With limits, spring,
+    motor or friction the sum moves by these: a tendon.
+    """
+
+    _key = "coupling"
+    joints: Union[Mapping[Union[int, str], float], Sequence[Tuple[Any, ...]]] = ()
+    curve: Optional[Sequence[float]] = None
+    offset: Optional[float] = None
+    limits: AnyLimits = None
+    spring: Optional[Spring] = None
+    motor: Optional[Motor] = None
+    friction: Optional[float] = None
+
+    def to_dict(self) -> Dict[str, Any]:
+        """As in a scene file: {"coupling": {"joints": [{"joint": "left", "factor": 20}, ...]}}."""
+        pairs = self.joints.items() if isinstance(self.joints, Mapping) else self.joints
+        given: Dict[str, Any] = {"joints": [dict(zip(("joint", "factor", "axis"), one)) for one in pairs]}
+        if self.curve is not None:
+            given["curve"] = [float(one) for one in self.curve]
+        if self.offset is not None:
+            given["offset"] = float(self.offset)
+        given.update(Axis(None, self.limits, self.spring, self.motor, self.friction).to_dict())
+        return {self._key: given}

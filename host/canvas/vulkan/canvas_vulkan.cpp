@@ -32,20 +32,6 @@ void VulkanCanvas::Impl::end_and_wait() {
     device->submit_and_wait({commands});
 }
 
-void VulkanCanvas::Impl::image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
-                                       VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read) {
-    VkImageMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    barrier.srcAccessMask = written;
-    barrier.dstAccessMask = read;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    device->vk().vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-}
-
 // Computes body colours, frustum culling and level of detail.
 void VulkanCanvas::Impl::look() {
     if (scenery.bodies() == 0) return;

@@ -67,8 +67,6 @@ struct VulkanCanvas::Impl {
     void draw_bodies(const Draw& draw);
     void draw_shadows(std::size_t light);
     void draw_picture(std::uint32_t quad_count);
-    void image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
-                       VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read);
 };
 
 }  // namespace scree::host

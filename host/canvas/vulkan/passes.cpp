@@ -173,17 +173,8 @@ VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format) {
 VkPipeline make_pipeline(VulkanObjectPool& objects, const PipelineShape& shape) {
     const std::shared_ptr<Device>& device = objects.device();
     const VulkanFunctions& vk = device->vk();
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    for (VkPipelineShaderStageCreateInfo& stage : stages) {
-        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        stage.pName = "main";
-    }
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
     const std::string vertex(shape.state.vertex), fragment(shape.state.fragment);
-    stages[0].module = objects.shader(vertex.c_str());
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    if (!fragment.empty()) stages[1].module = objects.shader(fragment.c_str());
-
+    const auto stages = objects.shader_stages(vertex, fragment);
     const FixedState fixed(shape);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

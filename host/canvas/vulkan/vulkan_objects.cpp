@@ -7,6 +7,19 @@
 
 namespace scree::host {
 
+void image_barrier(const Device& device, VkCommandBuffer commands, VkImage image, const ImageTransition& transition) {
+    VkImageMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    barrier.srcAccessMask = transition.access_before;
+    barrier.dstAccessMask = transition.access_after;
+    barrier.oldLayout = transition.from;
+    barrier.newLayout = transition.to;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    device.vk().vkCmdPipelineBarrier(commands, transition.before, transition.after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+}
+
 VulkanObjectPool::~VulkanObjectPool() {
     for (auto end = ends_.rbegin(); end != ends_.rend(); ++end) (*end)();
 }
@@ -93,6 +106,20 @@ VkDescriptorSet VulkanObjectPool::descriptors(VkDescriptorSetLayout layout, std:
     VkDescriptorSet set = VK_NULL_HANDLE;
     check(vk.vkAllocateDescriptorSets(device_->handle(), &allocation, &set), "vkAllocateDescriptorSets");
     return set;
+}
+
+std::array<VkPipelineShaderStageCreateInfo, 2> VulkanObjectPool::shader_stages(const std::string& vertex,
+                                                                               const std::string& fragment) {
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (VkPipelineShaderStageCreateInfo& stage : stages) {
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.pName = "main";
+    }
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = shader(vertex.c_str());
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    if (!fragment.empty()) stages[1].module = shader(fragment.c_str());
+    return stages;
 }
 
 VkShaderModule VulkanObjectPool::shader(const char* name) {

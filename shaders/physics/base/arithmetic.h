@@ -147,11 +147,8 @@ LAW vec4 unit_quaternion(vec4 q) {
 // The columns of the rotation matrix of q: the body's axes in world axes.
 struct Axes {
     vec3 x;
-    float pad_x;
     vec3 y;
-    float pad_y;
     vec3 z;
-    float pad_z;
 };
 LAW Axes axes_of(vec4 q) {
     float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
@@ -161,9 +158,6 @@ LAW Axes axes_of(vec4 q) {
     axes.x = vec3(1.0f - 2.0f * (yy + zz), 2.0f * (xy + wz), 2.0f * (xz - wy));
     axes.y = vec3(2.0f * (xy - wz), 1.0f - 2.0f * (xx + zz), 2.0f * (yz + wx));
     axes.z = vec3(2.0f * (xz + wy), 2.0f * (yz - wx), 1.0f - 2.0f * (xx + yy));
-    axes.pad_x = 0.0f;
-    axes.pad_y = 0.0f;
-    axes.pad_z = 0.0f;
     return axes;
 }
 

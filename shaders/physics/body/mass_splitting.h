@@ -9,6 +9,7 @@
 #define SCREE_PHYSICS_MASS_SPLITTING_H
 
 #include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/base/inertia.h"
 
 LAWS_BEGIN

@@ -2,7 +2,7 @@
 //
 // A body is fast if it moves by more than half of its min_half_width in a step. A slower one cannot tunnel: it
 // penetrates by that much at most, and its contact pushes it out of the side where it came in. Fast bodies take three
-// measures: speculative contacts only for those that will meet (shaders/stages/predict_impacts.comp); after the last
+// measures: speculative contacts only for those that will meet (shaders/stages/continuous/predict_impacts.comp); after the last
 // substep, clamping (continuous/clamping.h) where sweeps meet, or where a body leaves the bounds of its broadphase search.
 #ifndef SCREE_PHYSICS_SWEEP_H
 #define SCREE_PHYSICS_SWEEP_H

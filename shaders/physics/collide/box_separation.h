@@ -11,13 +11,9 @@ LAWS_BEGIN
 // A box in another one's frame: its axes x, y, z and its centre d (m).
 struct BoxView {
     vec3 x;
-    float pad_x;
     vec3 y;
-    float pad_y;
     vec3 z;
-    float pad_z;
     vec3 d;
-    float pad_d;
 };
 
 LAW BoxView view_of(Pose from, Pose to) {
@@ -27,10 +23,6 @@ LAW BoxView view_of(Pose from, Pose to) {
     view.y = axes.y;
     view.z = axes.z;
     view.d = rotate_back(from.orientation, to.position - from.position);
-    view.pad_x = 0.0f;
-    view.pad_y = 0.0f;
-    view.pad_z = 0.0f;
-    view.pad_d = 0.0f;
     return view;
 }
 // The first box in the frame of the second.
@@ -71,7 +63,6 @@ LAW vec3 face_separations(BoxView view, vec3 own, vec3 other) {
 struct EdgeAxis {
     float separation;  // m
     uint k;
-    uint pad0, pad1;
 };
 
 // Edges closer to parallel than 0.005 rad are skipped; face normals are as good there.
@@ -79,8 +70,6 @@ LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
     EdgeAxis best;
     best.separation = -1.0e30f;
     best.k = 0u;
-    best.pad0 = 0u;
-    best.pad1 = 0u;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             // Axis: (1, 0, 0) x view.x.
@@ -108,9 +97,7 @@ LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
 struct BoxAxes {
     BoxView b_from_a;
     vec3 faces_a;  // separations along the face normals of A, m
-    float pad0;
     vec3 faces_b;
-    float pad1;
     EdgeAxis edge;
 };
 LAW float best_face(vec3 separations) {
@@ -123,10 +110,6 @@ LAW BoxAxes box_axes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_
     axes.faces_b = face_separations(reversed(axes.b_from_a), b.size, a.size);
     axes.edge.separation = -1.0e30f;
     axes.edge.k = 0u;
-    axes.edge.pad0 = 0u;
-    axes.edge.pad1 = 0u;
-    axes.pad0 = 0.0f;
-    axes.pad1 = 0.0f;
     bool near = larger(best_face(axes.faces_a), best_face(axes.faces_b)) < margin;
     if (!none(near)) axes.edge = best_edge_axis(axes.b_from_a, a.size, b.size);
     return axes;
@@ -139,6 +122,7 @@ LAW bool are_apart(BoxAxes axes, float margin) {
 struct BoxPair {
     BoxAxes axes;
     Margin margin;
+    float pad0, pad1, pad2;  // lanes take records by four words
 };
 
 LAWS_END

@@ -15,7 +15,6 @@ struct Margin {
     vec3 fall;      // by gravity in the step, at most `closing`, m
     float closing;  // by the velocities, m
     float least;    // speculative distance, m
-    float pad0, pad1, pad2;
 };
 // Bodies pass each other where their bounding spheres stay further apart than this part of both radii: room for a third body to
 // throw one of them towards the other in the step. What is thrown further, the time of impact stops, and it loses a part. (At 50
@@ -36,9 +35,6 @@ LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity v
     margin.closing = length3(vb.linear - va.linear) * parameters.dt + turning;
     margin.fall = shortened(parameters.gravity * weight, margin.closing);
     margin.least = speculative_of(a, b, parameters);
-    margin.pad0 = 0.0f;
-    margin.pad1 = 0.0f;
-    margin.pad2 = 0.0f;
     // Bodies that pass each other have no contact: each of a cloud of splinters would have one with all others, however fast they
     // are. Should a third body or gravity throw one into another after all, the time of impact stops them.
     vec3 way = (vb.linear - va.linear) * parameters.dt;

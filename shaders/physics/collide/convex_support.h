@@ -17,7 +17,6 @@ struct ConvexShape {
     uint hull;      // index in the table of hulls
     float radius;   // m
     float scale;    // min_half_width, m; of a triangle its largest half extent
-    float pad;
 };
 
 // ONLY_HULLS removes the code for other shapes.
@@ -34,7 +33,6 @@ LAW ConvexShape convex_shape_of(BodyProperties properties, vec4 orientation, Hul
     solid.radius = has_round_core(properties.shape) ? properties.size.x : 0.0f;
     solid.scale = min_half_width(properties);
     if (properties.shape == SHAPE_TRIANGLE) solid.scale = largest_component(properties.size);
-    solid.pad = 0.0f;
     solid.head.vertices = solid.shape == SHAPE_BOX ? 8u : 0u;
     solid.head.faces = flat_faces(solid.shape);
     solid.head.across = 0u;
@@ -133,7 +131,6 @@ struct Faces {
     uint count;
     bool all;
     float beyond;  // greatest cosine between the asked direction and the normals of all faces not listed
-    float pad;
 };
 LAW Faces all_faces(ConvexShape solid) {
     Faces faces;
@@ -141,7 +138,6 @@ LAW Faces all_faces(ConvexShape solid) {
     faces.count = solid.head.faces;
     faces.all = true;
     faces.beyond = -2.0f;
-    faces.pad = 0.0f;
     return faces;
 }
 // A superset of the faces whose normals are nearest to a direction (body frame).

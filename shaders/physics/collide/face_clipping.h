@@ -19,11 +19,8 @@ struct ReferencePlane {
     vec3 normal;
     float offset;  // of the plane along the normal
     vec3 u;
-    float pad_u;
     vec3 v;
-    float pad_v;
     vec3 middle;  // m
-    float pad_m;
 };
 LAW vec4 onto_reference_plane(ReferencePlane reference, vec3 point, uint name) {
     vec3 from = point - reference.middle;
@@ -40,9 +37,6 @@ LAW ReferencePlane reference_plane_of(vec3 normal, float offset, vec3 along, vec
     reference.u = unit3(along - normal * dot3(along, normal), tangent(normal));
     reference.v = cross3(normal, reference.u);
     reference.middle = middle;
-    reference.pad_u = 0.0f;
-    reference.pad_v = 0.0f;
-    reference.pad_m = 0.0f;
     return reference;
 }
 

@@ -17,11 +17,8 @@ struct Simplex {
     vec3 nearest;
     uint count;  // 1 to 3
     vec3 a;
-    float pad_a;
     vec3 b;
-    float pad_b;
     vec3 c;
-    float pad_c;
 };
 LAW Simplex simplex_of(vec3 nearest, uint count, vec3 a, vec3 b, vec3 c) {
     Simplex simplex;
@@ -30,9 +27,6 @@ LAW Simplex simplex_of(vec3 nearest, uint count, vec3 a, vec3 b, vec3 c) {
     simplex.a = a;
     simplex.b = b;
     simplex.c = c;
-    simplex.pad_a = 0.0f;
-    simplex.pad_b = 0.0f;
-    simplex.pad_c = 0.0f;
     return simplex;
 }
 

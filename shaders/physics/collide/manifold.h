@@ -7,6 +7,11 @@
 
 LAWS_BEGIN
 
+struct ManifoldBuffer {
+    Manifold manifold;
+    uint count;  // points, 0 to 4; unused points are zero
+};
+
 // A manifold with a unit normal (from A to B) and no points.
 LAW ManifoldBuffer manifold_along(vec3 normal) {
     ManifoldBuffer touch;
@@ -17,9 +22,6 @@ LAW ManifoldBuffer manifold_along(vec3 normal) {
     touch.manifold.points[2] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     touch.manifold.points[3] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     touch.count = 0u;
-    touch.pad0 = 0u;
-    touch.pad1 = 0u;
-    touch.pad2 = 0u;
     return touch;
 }
 LAW ManifoldBuffer empty_manifold() {

@@ -6,7 +6,7 @@
 // of corners, -, -) as uints; two quads per cell; the list of corners, a byte each (vertex indices, counter-clockwise
 // seen from outside). All relative to the centre of mass, along the principal axes of inertia.
 //
-// Hulls of many vertices have a cube map of directions (a polytope's normal fan; compute/scene/hull_cells.h): each cell
+// Hulls of many vertices have a cube map of directions (a polytope's normal fan; compute/scene/meshes/hull_cells.h): each cell
 // (cell_of) lists in sixteen bytes the vertices that may support its directions, and in sixteen the faces that may be
 // nearest. Vertices: count and indices; count 0 if there are more than fifteen. Faces: count, the greatest cosine of
 // all others (cosine_of), and indices.

@@ -2,6 +2,7 @@
 #ifndef SCREE_PHYSICS_WRENCH_H
 #define SCREE_PHYSICS_WRENCH_H
 
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/base/inertia.h"
 #include "shaders/physics/constraint/constraint.h"
 

@@ -18,8 +18,6 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.flight_energy = 0.0f;
     impulse.speed_before_push = 0.0f;
     impulse.response = 0.0f;
-    impulse.pad0 = 0.0f;
-    impulse.pad1 = 0.0f;
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);

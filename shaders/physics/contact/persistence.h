@@ -10,6 +10,7 @@
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/body/body_scale.h"
 
 LAWS_BEGIN

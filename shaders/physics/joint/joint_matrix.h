@@ -18,8 +18,6 @@ struct RowResponse {
     float inverse_mass_b;
     float split_a;
     float split_b;
-    float pad0;
-    float pad1;
 };
 LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
     RowResponse response;
@@ -31,8 +29,6 @@ LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
     response.inverse_mass_b = b.inverse_mass;
     response.split_a = a.split;
     response.split_b = b.split;
-    response.pad0 = 0.0f;
-    response.pad1 = 0.0f;
     return response;
 }
 

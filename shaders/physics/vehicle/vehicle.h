@@ -39,7 +39,7 @@ LAW WayPoint way_point_at(Routes routes, uint place) {
 struct Routes {
     uint bound;
 };
-WayPoint way_point_at(Routes routes, uint place);  // shaders/stages/drive_vehicles.comp
+WayPoint way_point_at(Routes routes, uint place);  // shaders/stages/bodies/drive_vehicles.comp
 #endif
 
 LAW vec4 way_point(Routes routes, VehicleDynamics v, uint k) {

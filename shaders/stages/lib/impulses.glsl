@@ -2,7 +2,7 @@
 #ifndef SCREE_STAGES_IMPULSES_GLSL
 #define SCREE_STAGES_IMPULSES_GLSL
 
-#include "shaders/physics/contact/contact_impulse.h"
+#include "shaders/physics/base/contact_impulse.h"
 #include "shaders/stages/lib/features.glsl"
 
 Impulse impulse_at(uint i) {

@@ -4,7 +4,8 @@
 // the rows that its elimination changes; each entry is changed by the pivots in the same order as on the CPU. Compiled
 // for blocks of every size, whose equations are in memory, for small ones (SCREE_SMALL_BLOCKS), whose equations are
 // shared by the workgroup, and for small ones with a thread a block (SCREE_SINGLY), for software devices, whose threads
-// are lanes of a vector: there an array of a thread's own costs least.
+// are lanes of a vector: there an array of a thread's own costs least. Blocks with couplings have a shader of their own, whatever
+// their size (SCREE_COUPLED).
 //
 // lavapipe silently ends a shader's loops after 65,535 rounds in all: rounds of a block that would exceed it go to
 // further dispatches (compute/plan/stage_fusion.h, which knows how many rounds each loop here takes). Loops are not
@@ -14,7 +15,7 @@
 
 #extension GL_KHR_shader_subgroup_basic : require
 
-#ifndef SCREE_SMALL_BLOCKS
+#if !defined(SCREE_SMALL_BLOCKS) && !defined(SCREE_SINGLY)
 #define SCREE_FUSED  // threads read from memory what others wrote before a barrier
 #endif
 #include "shaders/physics/base/passes.h"
@@ -22,12 +23,17 @@
 
 // after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
+#ifdef SCREE_COUPLED
+#include "shaders/stages/lib/couplings.glsl"
+#endif
 
 layout(constant_id = 2) const bool ONE_SUBGROUP = false;
 
 #ifdef SCREE_SMALL_BLOCKS
 const uint JOINT_ROOM = SMALL_BLOCK_JOINTS, BODY_ROOM = 2u * SMALL_BLOCK_JOINTS, MASK_WORDS = 1u;
 const uint TILE_ROOM = 63u;  // of 11 joints: one of its own and MAX_FILL_IN, as far as joints follow
+#elif defined(SCREE_COUPLED)
+const uint JOINT_ROOM = MAX_COUPLED_BLOCK, BODY_ROOM = 2u * MAX_COUPLED_BLOCK, MASK_WORDS = 2u;
 #else
 const uint JOINT_ROOM = MAX_BLOCK_JOINTS, BODY_ROOM = 2u * MAX_BLOCK_JOINTS, MASK_WORDS = MAX_BLOCK_JOINTS >> 5;
 #endif
@@ -100,6 +106,16 @@ uint side_b(uint j) {
     uint side = sides[j] >> 16;
     return side == NOBODY ? NONE : side;
 }
+
+#ifdef SCREE_COUPLED
+// A coupling is one of the last joints of the block.
+uint first_coupling() {
+    return block_joints - joint_blocks.at[block].couplings;
+}
+bool is_coupling(uint j) {
+    return j >= first_coupling();
+}
+#endif
 
 // ---- what small blocks keep with their threads, and others in memory
 #ifdef SCREE_SMALL_BLOCKS
@@ -182,9 +198,33 @@ void put_row_vector(uint j, uint k, uint which, vec3 v) {
 #define JOINT(j) joints.at[block_first_joint + (j)]
 #define MEMBER(m) block_bodies.at[block_first_body + (m)]
 
+#ifdef SCREE_COUPLED
+// Couplings are joints with one row, the first: the laws treat it like those of joints.
+BLOCK_SHARED uint is_unknown[MAX_COUPLED_BLOCK];  // coupling's row in the equations of this round, by joint of the block
+const uint ACTS = 0x40000000u;                    // in `facts`, of a coupling none of whose joints has broken
+
+// The axis by which the laws tell lengths from angles.
+uint kind_of_row(uint j, uint k) {
+    return is_coupling(j) ? axis_of_term(term_of(block_first_joint + j, 0u)) : k;
+}
+uint solved_axes_of(uint j) {
+    return is_coupling(j) ? is_unknown[j] : unknowns[j];
+}
+#else
+#define kind_of_row(j, k) k
+#define solved_axes_of(j) unknowns[j]
+#endif
+
 // Of a lock the laws look at the coordinate of rest alone.
 JointAxis axis_of(uint j, uint k) {
     JointAxis axis;
+#ifdef SCREE_COUPLED
+    if (is_coupling(j)) {
+        axis = axis_of_coupling(JOINT(j).axes[0], JOINT(j).flags);
+        if (k != 0u || (facts[j] & ACTS) == 0u) axis.mode = 0u;
+        return axis;
+    }
+#endif
     axis.mode = JOINT(j).axes[k].mode;
     axis.lower = axis.upper = axis.stiffness = axis.damping = axis.rest = axis.speed = axis.most = 0.0f;
     if (is_locked(axis))
@@ -229,6 +269,16 @@ float speed_of(uint j, uint k, VelocityPair v) {
     row.angular_b = row_vector(j, k, ANGULAR_B);
     return row_speed(row, is_linear(k), v);
 }
+#ifdef SCREE_COUPLED
+float speed_of_coupling(uint g, bool before);
+// `before`: as the pass begins, in place of now; `v`: likewise.
+float speed_in(uint j, uint k, VelocityPair v, bool before) {
+    if (is_coupling(j)) return speed_of_coupling(j, before);
+    return speed_of(j, k, v);
+}
+#else
+#define speed_in(j, k, v, before) speed_of(j, k, v)
+#endif
 Velocity velocity_of_side(uint body, uint side) {
     if (side != NONE) return velocity_now(side);
     return velocity_at_first(body);
@@ -260,6 +310,10 @@ void describe_block() {
         if (a != NOBODY) JOIN(hanging[MASK_WORDS * a + (j >> 5)], 1u << (j & 31u));
         if (b != NOBODY) JOIN(hanging[MASK_WORDS * b + (j >> 5)], 1u << (j & 31u));
         unknowns[j] = 0u;
+#ifdef SCREE_COUPLED
+        is_unknown[j] = 0u;
+        if (is_coupling(j) && is_whole(block_first_joint + j)) facts[j] |= ACTS;
+#endif
     }
 #ifdef SCREE_SMALL_BLOCKS
     end_part();
@@ -370,7 +424,7 @@ void choose_unknowns(uint j) {
             VelocityPair v;
             v.a = velocity_at_first(JOINT(j).a);
             v.b = velocity_at_first(JOINT(j).b);
-            speed = speed_of(j, k, v);
+            speed = speed_in(j, k, v, true);
         }
         row = row_given(axis, row, active_flags, speed, BIASED, PARAMETERS);
         put_changes(j, k, row);
@@ -378,6 +432,12 @@ void choose_unknowns(uint j) {
         given_impulses[6u * j + k] = change;
         if (change != 0.0f) given |= 1u << k;
     }
+#ifdef SCREE_COUPLED
+    if (is_coupling(j)) {
+        is_unknown[j] = found;
+        found = 0u;
+    }
+#endif
     unknowns[j] = found;
     pushing[j] = given;
 }
@@ -387,161 +447,16 @@ void set_up_sides(uint j) {
     VelocityPair v = couple_of(j);
     uint active_set = JOINT(j).active_set;
     for (uint k = 0u; k < 6u; ++k) {
-        if (!has(unknowns[j], k)) continue;
+        if (!has(solved_axes_of(j), k)) continue;
         JointAxis axis = axis_of(j, k);
-        RowTarget demand =
-            row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), k, active_set_of(active_set, k), BIASED, PARAMETERS);
-        solutions[6u * j + k] = right_hand_side(speed_of(j, k, v), demand.bias);
+        RowTarget demand = row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), kind_of_row(j, k),
+                                      active_set_of(active_set, k), BIASED, PARAMETERS);
+        solutions[6u * j + k] = right_hand_side(speed_in(j, k, v, false), demand.bias);
         given_impulses[6u * j + k] = demand.compliance;
     }
 }
 
-// The entries of unknown k of joint j: those of its own and those of the joints linked with it.
-void set_up_column(uint j, uint k) {
-    uint a = side_a(j), b = side_b(j);
-    Mass mass_a = mass_of_side(a), mass_b = mass_of_side(b);
-    RowResponse to;
-    to.direction = row_vector(j, k, DIRECTION);
-    to.axis = k;
-    to.turn_a = row_vector(j, k, TURN_A);
-    to.inverse_mass_a = mass_a.inverse_mass;
-    to.turn_b = row_vector(j, k, TURN_B);
-    to.inverse_mass_b = mass_b.inverse_mass;
-    to.split_a = mass_a.split;
-    to.split_b = mass_b.split;
-    to.pad0 = to.pad1 = 0.0f;
-    float compliance = given_impulses[6u * j + k];
-    uint slots_end = links_of(j) + 1u;
-    for (uint slot = 0u; slot < slots_end; ++slot) {
-        uint i = slot == 0u ? j : link_of(j, slot - 1u), at = tile_at(j, slot);
-        int ends = shared_ends(side_a(i), side_b(i), a, b);
-        for (uint n = slot == 0u ? k : 0u; n < 6u; ++n) {
-            if (!has(unknowns[i], n)) continue;
-            vec3 direction = vec3(0.0f), angular_a = vec3(0.0f), angular_b = vec3(0.0f);
-            if (is_linear(k) && is_linear(n)) direction = row_vector(i, n, DIRECTION);
-            if ((ends & (ENDS_A_A | ENDS_A_B)) != 0) angular_a = row_vector(i, n, ANGULAR_A);
-            if ((ends & (ENDS_B_A | ENDS_B_B)) != 0) angular_b = row_vector(i, n, ANGULAR_B);
-            float entry = row_entry(direction, angular_a, angular_b, n, to, ends);
-            if (slot == 0u && n == k) entry = softened(entry, compliance);
-            TILE(j, at + 6u * n + k) = entry;
-        }
-    }
-}
-
-// Eliminates the unknowns of joint j from all later equations. Each thread factors the joint's own rows. Loops over six
-// have fixed ends, so that drivers can keep the six in registers.
-void eliminate(uint j) {
-    uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
-    float own[36], known[6], inverse[6];
-    for (uint n = 0u; n < 6u; ++n) {
-        known[n] = solutions[6u * j + n];
-        for (uint c = 0u; c < 6u; ++c) own[6u * n + c] = TILE(j, own_at + 6u * n + c);
-    }
-    end_part();
-#define FACTOR_FROM(k)                                                                                              \
-    if (has(own_axes, k)) {                                                                                         \
-        inverse[k] = reciprocal(own[7u * k]);                                                                       \
-        for (uint n = 0u; n < 6u; ++n) {                                                                            \
-            if (n <= k) continue;                                                                                   \
-            float multiplier = multiplier_of(own[6u * n + k], inverse[k]);                                          \
-            known[n] = less_multiple(known[n], multiplier, known[k]);                                               \
-            for (uint c = 0u; c < 6u; ++c)                                                                          \
-                if (c > k && c <= n) own[6u * n + c] = less_multiple(own[6u * n + c], multiplier, own[6u * c + k]); \
-        }                                                                                                           \
-    }
-    FACTOR_FROM(0u);
-    FACTOR_FROM(1u);
-    FACTOR_FROM(2u);
-    FACTOR_FROM(3u);
-    FACTOR_FROM(4u);
-    FACTOR_FROM(5u);
-    if (leads()) {
-        for (uint n = 0u; n < 6u; ++n) {
-            solutions[6u * j + n] = known[n];
-            pivots[6u * j + n] = inverse[n];
-            for (uint c = 0u; c < 6u; ++c)
-                if (c < n) TILE(j, own_at + 6u * n + c) = own[6u * n + c];
-        }
-    }
-    FOR_LANES(t, 6u * count) {
-        uint l = sixth_of(t), n = t - 6u * l, i = link_of(j, l), at = tile_at(j, 1u + l) + 6u * n;
-        if (!has(unknowns[i], n)) continue;
-        float row[6], sum = solutions[6u * i + n];
-        for (uint k = 0u; k < 6u; ++k) row[k] = TILE(j, at + k);
-        for (uint k = 0u; k < 6u; ++k) {
-            if (!has(own_axes, k)) continue;
-            float multiplier = multiplier_of(row[k], inverse[k]);
-            sum = less_multiple(sum, multiplier, known[k]);
-            for (uint c = 0u; c < 6u; ++c)
-                if (c > k) row[c] = less_multiple(row[c], multiplier, own[6u * c + k]);
-        }
-        solutions[6u * i + n] = sum;
-        for (uint k = 0u; k < 6u; ++k) TILE(j, at + k) = row[k];
-    }
-    end_part();
-    // The equations of the joints linked with it, and those between two of them: entries [n][c] of a tile.
-    float column[36];
-    FOR_LANES(t, 3u * count * (count + 1u)) {
-        uint pair = sixth_of(t), n = t - 6u * pair;
-        uint l = (pair >= 1u ? 1u : 0u) + (pair >= 3u ? 1u : 0u) + (pair >= 6u ? 1u : 0u) + (pair >= 10u ? 1u : 0u) +
-                 (pair >= 15u ? 1u : 0u) + (pair >= 21u ? 1u : 0u) + (pair >= 28u ? 1u : 0u);
-        uint e = pair - (l * (l + 1u) >> 1), later = link_of(j, l), middle = link_of(j, e), slot = 0u;
-#ifdef SCREE_SINGLY
-        if (n == 0u)
-#endif
-            for (uint c = 0u; c < 6u; ++c)
-                for (uint k = 0u; k < 6u; ++k) column[6u * c + k] = TILE(j, tile_at(j, 1u + e) + 6u * c + k);
-        if (!has(unknowns[later], n)) continue;
-        if (e != l) {
-            uint all = links_of(middle);
-            slot = 1u;
-            for (uint s = 0u; s < all; ++s)
-                if (link_of(middle, s) < later) ++slot;
-        }
-        uint at = tile_at(middle, slot) + 6u * n, row_at = tile_at(j, 1u + l) + 6u * n;
-        float target[6];
-        for (uint c = 0u; c < 6u; ++c) target[c] = TILE(middle, at + c);
-        for (uint k = 0u; k < 6u; ++k) {
-            if (!has(own_axes, k)) continue;
-            float multiplier = multiplier_of(TILE(j, row_at + k), inverse[k]);
-            for (uint c = 0u; c < 6u; ++c) target[c] = less_multiple(target[c], multiplier, column[6u * c + k]);
-        }
-        for (uint c = 0u; c < 6u; ++c) TILE(middle, at + c) = target[c];
-    }
-    end_part();
-}
-
-void substitute(uint j) {
-    uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
-    for (uint k = 6u; k-- > 0u;) {
-        if (!has(own_axes, k)) continue;
-        float sum = solutions[6u * j + k];
-        for (uint n = k + 1u; n < 6u; ++n)
-            if (has(own_axes, n)) sum = less_multiple(sum, TILE(j, own_at + 6u * n + k), solutions[6u * j + n]);
-        for (uint l = 0u; l < count; ++l) {
-            uint i = link_of(j, l), at = tile_at(j, 1u + l), theirs = unknowns[i];
-            for (uint n = 0u; n < 6u; ++n)
-                if (has(theirs, n)) sum = less_multiple(sum, TILE(j, at + 6u * n + k), solutions[6u * i + n]);
-        }
-        sum = substituted(sum, pivots[6u * j + k]);
-        solutions[6u * j + k] = sum;
-        given_impulses[6u * j + k] = sum;
-    }
-    pushing[j] = own_axes;
-}
-
-void solve_equations() {
-    FOR_LANES(j, block_joints) set_up_sides(j);
-    end_part();
-    FOR_LANES(t, 6u * block_joints) {
-        uint j = sixth_of(t), k = t - 6u * j;
-        if (has(unknowns[j], k)) set_up_column(j, k);
-    }
-    end_part();
-    for (uint j = 0u; j < block_joints; ++j) eliminate(j);
-    if (leads())
-        for (uint j = block_joints; j-- > 0u;) substitute(j);
-}
+#include "shaders/stages/lib/joint_equations.glsl"
 
 // Updates the active set after a solution; true if it changed.
 bool look_at_bounds(uint j, bool settling) {
@@ -551,11 +466,11 @@ bool look_at_bounds(uint j, bool settling) {
         JointAxis axis = axis_of(j, k);
         JointRow row = row_with_changes(j, k);
         if (!row_acts(axis, row)) continue;
-        bool solved = has(unknowns[j], k);
+        bool solved = has(solved_axes_of(j), k);
         float solution = 0.0f;
         if (solved) solution = solutions[6u * j + k];
-        RowAfter after = row_after_round(axis, row, rotor_of(j, k, axis), k, active_set_of(before, k), solved, solution,
-                                         speed_of(j, k, v), BIASED, settling, PARAMETERS);
+        RowAfter after = row_after_round(axis, row, rotor_of(j, k, axis), kind_of_row(j, k), active_set_of(before, k), solved,
+                                         solution, speed_in(j, k, v, false), BIASED, settling, PARAMETERS);
         if (has_rotor(axis)) JOINT(j).rotors[k].change = after.rotor_change;
         put_changes(j, k, after.row);
         active_set = with_active_set(active_set, k, after.active_flags);
@@ -591,8 +506,18 @@ void solve_block() {
         end_part();
         FOR_LANES(j, block_joints) {
             JOINT(j).solved_axes = 0u;
+#ifdef SCREE_COUPLED
+            if (is_coupling(j)) continue;
+#endif
             if (holds(j)) place_rows(j);
         }
+#ifdef SCREE_COUPLED
+        end_part();
+        FOR_LANES(i, block_joints - first_coupling()) {
+            uint coupling = block_first_joint + first_coupling() + i;
+            if (is_whole(coupling)) place_coupling(coupling);
+        }
+#endif
         if (leads()) unsettled = 1u;
     } else if (leads()) {
         unsettled = joint_blocks.at[block].unsettled;
@@ -604,6 +529,10 @@ void solve_block() {
             if (holds(j)) choose_unknowns(j);
         }
         end_part();
+#ifdef SCREE_COUPLED
+        if (leads()) pass_on_impulses();
+        end_part();
+#endif
         push_bodies(FROM_BEFORE);
         end_part();
         solve_equations();
@@ -656,12 +585,14 @@ void write_deltas(float weight, bool with_normal_impulse) {
     }
 }
 
-// Whether a block is of the size that this shader is for.
+// Whether a block is of the kind that this shader is for.
 bool is_ours(uint index) {
-#ifdef SCREE_SMALL_BLOCKS
-    return joint_blocks.at[index].joints <= SMALL_BLOCK_JOINTS;
+#ifdef SCREE_COUPLED
+    return joint_blocks.at[index].couplings != 0u;
+#elif defined(SCREE_SMALL_BLOCKS)
+    return joint_blocks.at[index].joints <= SMALL_BLOCK_JOINTS && joint_blocks.at[index].couplings == 0u;
 #else
-    return joint_blocks.at[index].joints > SMALL_BLOCK_JOINTS;
+    return joint_blocks.at[index].joints > SMALL_BLOCK_JOINTS && joint_blocks.at[index].couplings == 0u;
 #endif
 }
 

@@ -6,6 +6,7 @@
 #define SCREE_STAGES_SCAN_GLSL
 
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/prefix_sum.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 const uint SCAN_CELLS = 0u;
@@ -61,24 +62,19 @@ void scan_total(uint total) {
         COUNTS = with_contacts(COUNTS, total, PARAMETERS);
 }
 
-#ifndef SCREE_FUSED
-#define end_part() barrier()
-#endif
-
-shared uint partial[256];
-
-// Exclusive prefix sum within the workgroup; all threads call it.
-uint sum_before(uint value) {
-    uint t = gl_LocalInvocationID.x;
-    partial[t] = value;
-    end_part();
-    for (uint d = 1u; d < gl_WorkGroupSize.x; d <<= 1) {
-        uint other = t >= d ? partial[t - d] : 0u;
-        end_part();
-        partial[t] += other;
-        end_part();
+// Writes the exclusive sums of a thread's items from `first` on; the sum before its workgroup's is `before`.
+void scan_group(uint first, uint items, uint before) {
+    uint values[SCAN_ITEMS];
+    uint sum = 0u;
+    for (uint k = 0u; k < SCAN_ITEMS; ++k) {
+        values[k] = first + k < items ? scan_read(first + k) : 0u;
+        sum += values[k];
     }
-    return partial[t] - value;
+    uint running = before + sum_before(sum);
+    for (uint k = 0u; k < SCAN_ITEMS; ++k) {
+        if (first + k <= items) scan_write(first + k, running);
+        running += values[k];
+    }
 }
 
 #ifdef SCREE_FUSED
@@ -87,18 +83,7 @@ void scan_whole() {
     uint items = scan_items();
     uint total = 0u;
     for (uint begin = 0u; begin <= items; begin += gl_WorkGroupSize.x << SCAN_SHIFT) {
-        uint first = begin + (gl_LocalInvocationID.x << SCAN_SHIFT);
-        uint values[SCAN_ITEMS];
-        uint sum = 0u;
-        for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-            values[k] = first + k < items ? scan_read(first + k) : 0u;
-            sum += values[k];
-        }
-        uint running = total + sum_before(sum);
-        for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-            if (first + k <= items) scan_write(first + k, running);
-            running += values[k];
-        }
+        scan_group(begin + (gl_LocalInvocationID.x << SCAN_SHIFT), items, total);
         end_part();
         total += partial[gl_WorkGroupSize.x - 1u];
         end_part();

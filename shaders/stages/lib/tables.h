@@ -2,7 +2,7 @@
 // expand these lists.
 //
 // Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of quads (16 bytes),
-// because devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset is where each begins,
+// because devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.table_offsets says where each begins,
 // and shaders/stages/lib/words.glsl and quads.glsl access them. On the host every table is a vector
 // (compute/tables/state.h).
 //

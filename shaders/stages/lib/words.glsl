@@ -3,13 +3,7 @@
 #ifndef SCREE_STAGES_WORDS_GLSL
 #define SCREE_STAGES_WORDS_GLSL
 
-// Views: names of a list before it holds what its table is named after (SCREE_VIEWS).
-#define cell_counts_offset cell_ends_offset
-#define cell_starts_offset cell_ends_offset
-#define pair_counts_offset pair_starts_offset
-#define slot_counts_offset slot_ends_offset
-#define slot_starts_offset slot_ends_offset
-#define pair_type_counts_offset pair_type_starts_offset
+#include "shaders/stages/lib/record_readers.glsl"
 
 #define WORD(table, i) words.at[PARAMETERS.table##_offset + (i)]
 #define SET_FLOAT(table, i, value) WORD(table, i) = floatBitsToUint(value)

@@ -1,5 +1,6 @@
 // Stage declarations match the compiled shaders: tables read and written, and features tested.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <map>
 #include <optional>
@@ -32,8 +33,8 @@ std::optional<Table> table_in(std::size_t buffer) {
     return table_called(buffer_infos()[buffer].name);
 }
 
-// The table whose offset is this member of the parameters.
-std::optional<Table> table_that_begins_at(std::uint32_t member) {
+// The table whose offset is at this place of the parameters.
+std::optional<Table> table_that_begins_at(const house::ArrayPlace& place) {
     static const std::vector<std::string> members = [] {
         std::vector<std::string> all;
 #define SCREE_RECORD(record, size)
@@ -44,10 +45,11 @@ std::optional<Table> table_that_begins_at(std::uint32_t member) {
 #undef SCREE_MEMBER
         return all;
     }();
-    const std::string& name = members.at(member);
-    constexpr std::string_view ending = "_offset";
-    if (!name.ends_with(ending)) return std::nullopt;
-    return table_called(std::string_view(name).substr(0, name.size() - ending.size()));
+#define SCREE_TABLE(buffer, name, block, record, length) Table::name,
+    static constexpr std::array in_turn{SCREE_WORD_TABLES(SCREE_TABLE) SCREE_QUAD_TABLES(SCREE_TABLE)};
+#undef SCREE_TABLE
+    if (members.at(place.member) != "table_offsets" || place.at >= in_turn.size()) return std::nullopt;
+    return in_turn[place.at];
 }
 
 // Accesses per table, merged over storage buffer, uniform texels and storage texels.
@@ -60,7 +62,7 @@ std::map<Table, house::BufferAccess> shader_accesses(const house::Accesses& acce
         all[*table].atomics |= access.atomics;
     };
     for (const auto& [binding, access] : accesses.of) add(table_in(binding % buffer_count), access);
-    for (const auto& [member, access] : accesses.of_member) add(table_that_begins_at(member), access);
+    for (const auto& [place, access] : accesses.of_place) add(table_that_begins_at(place), access);
     return all;
 }
 

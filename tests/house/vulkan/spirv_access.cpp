@@ -47,9 +47,9 @@ struct Reader {
     std::map<std::uint32_t, std::uint32_t> bindings, constants, spec_ids;
     std::map<std::uint32_t, std::uint32_t> origins;  // binding that a pointer or image originates from
     std::set<std::uint32_t> addresses;               // the uniform block of buffer addresses
-    // Members of the parameters that ids refer to: pointers to members, values loaded from them, pointers at such
-    // offsets.
-    std::map<std::uint32_t, std::uint32_t> member_pointers, begins, table_pointers;
+    // Components of the parameters' arrays that ids refer to: pointers to components, values loaded from them, pointers at
+    // such offsets.
+    std::map<std::uint32_t, ArrayPlace> place_pointers, begins, table_pointers;
 
     void follow(std::uint32_t result, std::uint32_t from) {
         if (const auto origin = origins.find(from); origin != origins.end()) origins[result] = origin->second;
@@ -58,9 +58,9 @@ struct Reader {
     void note(std::uint32_t pointer, bool BufferAccess::*kind) {
         if (const auto origin = origins.find(pointer); origin != origins.end()) found.of[origin->second].*kind = true;
         if (const auto table = table_pointers.find(pointer); table != table_pointers.end())
-            found.of_member[table->second].*kind = true;
+            found.of_place[table->second].*kind = true;
     }
-    static void carry(std::map<std::uint32_t, std::uint32_t>& what, std::uint32_t result, std::uint32_t from) {
+    static void carry(std::map<std::uint32_t, ArrayPlace>& what, std::uint32_t result, std::uint32_t from) {
         if (const auto known = what.find(from); known != what.end()) what[result] = known->second;
     }
 
@@ -72,15 +72,16 @@ struct Reader {
         carry(table_pointers, w[2], w[3]);
         const auto origin = origins.find(w[2]);
         if (origin == origins.end()) return;
-        // parameters.at[0].member
-        if (origin->second == 0 && w.size() == 7) member_pointers[w[2]] = constants.at(w[6]);
+        // parameters.at[0].member[element].component
+        if (origin->second == 0 && w.size() == 9 && constants.contains(w[7]) && constants.contains(w[8]))
+            place_pointers[w[2]] = {constants.at(w[6]), 4 * constants.at(w[7]) + constants.at(w[8])};
         for (const std::uint32_t index : w.subspan(4))
             if (const auto begin = begins.find(index); begin != begins.end()) table_pointers[w[2]] = begin->second;
     }
     // Records the load `w`; loading a buffer address is no access.
     void load(std::span<const std::uint32_t> w, bool is_address) {
         follow(w[2], w[3]);
-        if (const auto member = member_pointers.find(w[3]); member != member_pointers.end()) begins[w[2]] = member->second;
+        if (const auto place = place_pointers.find(w[3]); place != place_pointers.end()) begins[w[2]] = place->second;
         if (!is_address) note(w[3], &BufferAccess::loads);
     }
     void read(const host::SpirvInstruction& instruction, const std::set<std::uint32_t>& pointer_types) {
@@ -119,7 +120,7 @@ struct Reader {
                 carry(begins, w[2], w[4]);
                 break;
             case op_image_fetch:
-                if (const auto begin = begins.find(w[4]); begin != begins.end()) found.of_member[begin->second].loads = true;
+                if (const auto begin = begins.find(w[4]); begin != begins.end()) found.of_place[begin->second].loads = true;
                 break;
             case op_load:
                 load(w, pointer_types.contains(w[1]));

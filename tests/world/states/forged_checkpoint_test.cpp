@@ -8,7 +8,7 @@
 
 #include "compute/checkpoint.h"
 #include "compute/world.h"
-#include "compute/world/checkpoint_seal.h"
+#include "compute/world/states/checkpoint_seal.h"
 #include "tests/world/museum.h"
 
 using namespace scree;

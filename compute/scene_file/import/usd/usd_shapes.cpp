@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "compute/scene/hull.h"
+#include "compute/scene/meshes/hull.h"
 #include "compute/scene_file/import/gltf_shapes.h"
 #include "compute/scene_file/import/srgb.h"
 #include "compute/scene_file/import/usd/usd_physics.h"
