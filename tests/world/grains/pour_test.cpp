@@ -8,7 +8,6 @@
 #include "compute/scene_file/load_scene.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_file/scene_schema.h"
-#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/temporary_folder.h"
 #include "tests/world/rain.h"
@@ -141,23 +140,6 @@ TEST_CASE("a snapshot of a run goes on pouring what is still to come", "[grains]
     CHECK(poured_into(next, "rain").count == 60);
     run(document, world, 60);
     CHECK(coming_events(document.events, world).empty());
-}
-
-TEST_CASE("cells of the grid fit bodies that come into an empty world", "[grains]") {
-    const SceneDocument document = scene_from_json(tests::rain(R"("count": 60, "count_rate": 300)"));
-    World world(document.scene);
-    CHECK(world.state().fixed().cell == 1);
-    run(document, world, 18);
-    CHECK(world.scene().bodies.size() == 65);
-    CHECK(world.state().fixed().cell < 0.2f);  // grains are 0.05 to 0.09 m wide
-    CHECK(world.state().fixed().cell > 0.05f);
-    const std::vector<std::byte> saved = world.save();
-    World other(document.scene);
-    other.restore(saved);
-    CHECK(other.state().fixed().cell == world.state().fixed().cell);
-    run(document, world, 10);
-    run(document, other, 10);
-    CHECK(other.state_hash() == world.state_hash());
 }
 
 TEST_CASE("scene file: grains become bodies and events, which are written and read again", "[grains]") {
