@@ -208,6 +208,18 @@ physics::uint axis_of_term(const Joint& joint, const CoupledAxis& term) {
     return static_cast<physics::uint>(axes_of_kind(joint.kind).in_record(axis));
 }
 
+// The power of two above its largest factor (AXIS_REACH): a lock that is wrong by a little of that joint is wrong by far more in
+// its own unit, and is corrected as fast as the joint could be.
+physics::uint reach_of(const Coupling& coupling) {
+    float largest = 1;
+    for (const CoupledAxis& term : coupling.joints) largest = std::max(largest, std::abs(term.factor));
+    for (const float part : coupling.curve) largest = std::max(largest, std::abs(part));
+    largest = std::min(largest, physics::STEEPEST);
+    physics::uint reach = 0;
+    while (static_cast<float>(1u << reach) < largest) ++reach;
+    return reach;
+}
+
 // A coupling with a joint of another block has no terms, and does nothing (check_couplings).
 void take_terms(const Scene& scene, const Coupling& coupling, const physics::JointBlock& block, JointTables& tables,
                 physics::Joint& record) {
@@ -229,6 +241,7 @@ void take_terms(const Scene& scene, const Coupling& coupling, const physics::Joi
         (t < 4 ? record.frame_a : record.frame_b)[static_cast<int>(t % 4)] =
             curved && t + 1 == count ? 0 : coupling.joints[t].factor;
     record.flags |= static_cast<physics::uint>(count) << physics::COUPLING_TERMS_SHIFT;
+    record.flags |= reach_of(coupling) << physics::COUPLING_REACH_SHIFT;
 }
 
 // Whether B can swing by half a turn in any direction.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "compute/compile/grid_layout.h"
 #include "compute/compile/joint_blocks.h"
 #include "compute/compile/scene_compiler.h"
 #include "shaders/physics/body/compound.h"
@@ -155,6 +156,12 @@ TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
     changed.push_back({Table::ids, first, p.bodies - first});
     if (!state_.filters.empty()) changed.push_back({Table::filters, first, p.bodies - first});
     return changed;
+}
+
+void StateEditor::choose_cell() {
+    GridLayout layout;
+    for (const physics::BodyProperties& row : state_.properties) layout.note_width(row, state_.fixed());
+    layout.choose_cell(state_.fixed());
 }
 
 // Initial lasting data of new rows: parts follow their bodies, and there are no contacts.

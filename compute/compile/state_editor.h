@@ -26,6 +26,9 @@ public:
     // Appends a body, in a row before those of parts. When rows run out, parts move up, leaving room for half as many
     // bodies again.
     TableRanges needed_to_add(std::uint32_t count = 1, bool with_parts = false) const;
+    // The width of the grid's cells, for the bodies that there are by now. Levels follow from it, and the order of contacts from
+    // levels.
+    void choose_cell();
     // Before several are added, of which some have parts.
     TableRanges make_room(std::uint32_t count, bool with_parts = false);
     TableRanges add(const Body& body) { return put(body, state_.body_count); }

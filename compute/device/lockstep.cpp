@@ -10,6 +10,7 @@
 #include "compute/scene/copies.h"
 #include "compute/statistics.h"
 #include "compute/world/states/state_bytes.h"
+#include "shaders/physics/sleep/sleep.h"
 
 namespace scree {
 
@@ -59,8 +60,11 @@ struct Lockstep::Impl {
         return true;
     }
 
-    // After an overflow only counts are.
-    bool is_written(const Compared& compared) const { return state.counted().overflow == 0 || compared.table == Table::counts; }
+    // After an overflow only counts are, and quiet steps only if bodies may sleep.
+    bool is_written(const Compared& compared) const {
+        if (compared.table == Table::neighbours_quiet && state.fixed().sleep_steps == physics::NO_SLEEP) return false;
+        return state.counted().overflow == 0 || compared.table == Table::counts;
+    }
 
     // False if a buffer had to grow first.
     bool attempt(bool redo) {

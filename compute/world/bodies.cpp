@@ -1,5 +1,6 @@
 // World: bodies that come and go, and their handles.
 #include <algorithm>
+#include <bit>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -156,6 +157,10 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     const std::size_t count_before = in.scene.bodies.size();
     for (const std::vector<Body>& family : families) firsts.push_back(in.take_indices(family.size()));
     const TableLengths before = TableLengths::of(in.state);
+    // The grid's cells fit the first bodies, which may be of other sizes, or none: they are chosen anew each time that the number
+    // doubles. By what is known on every processor and kept in checkpoints: rows with their motions of by now.
+    const bool doubles = std::bit_width(count_before) != std::bit_width(in.scene.bodies.size());
+    if (doubles && in.state.changes_motions()) in.runner->download({{Table::properties, 0, in.state.fixed().bodies}});
     StateEditor editor(in.state);
     const auto appended = static_cast<std::uint32_t>(in.scene.bodies.size() - count_before);
     in.runner->download(editor.needed_to_add(appended, parts));
@@ -183,6 +188,7 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     if (filters || !in.state.filters.empty()) append(changed, editor.filter(in.scene));
     // The last body with a filter may be gone since, and with it the table.
     if (in.state.filters.empty()) std::erase_if(changed, [](const TableRange& range) { return range.table == Table::filters; });
+    if (doubles) editor.choose_cell();
     in.send(changed, before);
     // What is dynamic wakes what it touches; what is not stirs nothing by itself.
     if (std::any_of(firsts.begin(), firsts.end(), [&](std::size_t i) { return in.scene.bodies[i].motion != Motion::dynamic; }))

@@ -16,6 +16,7 @@
 #include "demos/program/backend.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
 #include "demos/program/options/option_parsing.h"
 #include "demos/program/scene_edits.h"
 #include "demos/scenes/demos.h"
@@ -153,6 +154,7 @@ SceneDocument document_of_file(const SceneOptions& options, std::vector<std::str
 
 LoadedScene from_file(const SceneOptions& options) {
     const std::string& path = options.name;
+    stop_decompositions_if(is_interrupted);
     tell_of_decompositions([](const std::string& what, double done) { say("scree: {}: {:.0f}%\n", what, 100 * done); });
     LoadedScene subject;
     try {

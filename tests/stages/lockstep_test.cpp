@@ -106,6 +106,13 @@ TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 s
     }
 }
 
+TEST_CASE("both processors stay alike where no body sleeps: what no stage writes is not compared", "[process:stages]") {
+    const Watched watched;
+    Settings awake;
+    awake.sleeping = false;
+    require_equal(compare_in_lockstep(tests::packed(60), awake, watched.device, 1, 3));
+}
+
 TEST_CASE("every stage gives the same bits on both processors whatever contacts of the scene there cannot be",
           "[process:stages]") {
     const Watched watched;

@@ -1,10 +1,12 @@
 // Quarantine on a device, the same bodies, in the same step.
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/device/device_runner.h"
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
@@ -56,4 +58,25 @@ TEST_CASE("a quarantine has the same bits on a device", "[vulkan][process:runs]"
     unread.set_bodies(std::vector{BodyChange{.body = 1, .position = vec3(30, 5, 0)}});
     unread.step(20);
     CHECK(unread.state_hash() == processor.state_hash());
+}
+
+TEST_CASE("cells of the grid are chosen without bodies in quarantine on a device, too", "[vulkan][process:runs]") {
+    Scene scene;
+    for (int i = 0; i < 8; ++i)
+        scene.bodies.push_back({.shape = Sphere{i < 2 ? 0.02f : 0.3f}, .position = {static_cast<float>(i), 1, 0}});
+    std::vector<Body> more;
+    for (int i = 0; i < 8; ++i) more.push_back({.shape = Sphere{0.3f}, .position = {static_cast<float>(i), 3, 0}});
+    Watched watched;
+    World device(scene, tests::coarse(), tearing<DeviceRunner>(watched.device)),
+        processor(scene, tests::coarse(), tearing<ReferenceRunner>(1));
+    for (World* world : {&device, &processor}) {
+        world->add_bodies(std::span(more).first(5));  // makes room for the rest
+        world->step(3);
+        world->add_bodies(std::span(more).subspan(5));
+        world->step(3);
+    }
+    REQUIRE(processor.quarantines().size() == 2);
+    CHECK(processor.state().fixed().cell > 0.5f);
+    CHECK(device.state().fixed().cell == processor.state().fixed().cell);
+    CHECK(device.state_hash() == processor.state_hash());
 }

@@ -29,6 +29,7 @@ struct Kept {
     std::mutex lock;
     std::deque<Made> made;
     std::function<void(const std::string&, double)> tell;
+    std::function<bool()> stop;
 };
 Kept& kept() {
     static Kept all;
@@ -41,14 +42,17 @@ bool equal(const Made& made, std::span<const vec3> vertices, std::span<const uve
            std::memcmp(made.triangles.data(), triangles.data(), triangles.size_bytes()) == 0;
 }
 
-// Tells after half a second, then every two.
-std::function<void(double)> teller(std::function<void(const std::string&, double)> tell, std::size_t triangles) {
-    if (!tell) return {};
+// Tells after half a second, then every two; stops when that is asked for.
+std::function<void(double)> teller(std::function<void(const std::string&, double)> tell, std::function<bool()> stop,
+                                   std::size_t triangles) {
+    if (!tell && !stop) return {};
     using Clock = std::chrono::steady_clock;
-    return [tell = std::move(tell), what = "decomposing a mesh of " + std::to_string(triangles) + " triangles",
+    return [tell = std::move(tell), stop = std::move(stop),
+            what = "decomposing a mesh of " + std::to_string(triangles) + " triangles",
             next = Clock::now() + std::chrono::milliseconds(500)](double done) mutable {
+        if (stop && stop()) throw DecompositionStopped(what + ": stopped");
         const Clock::time_point now = Clock::now();
-        if (now < next) return;
+        if (!tell || now < next) return;
         next = now + std::chrono::seconds(2);
         tell(what, done);
     };
@@ -66,13 +70,20 @@ void tell_of_decompositions(std::function<void(const std::string&, double)> tell
     kept().tell = std::move(tell);
 }
 
+void stop_decompositions_if(std::function<bool()> stop) {
+    const std::lock_guard held(kept().lock);
+    kept().stop = std::move(stop);
+}
+
 std::shared_ptr<const ConvexParts> convex_parts(std::span<const vec3> vertices, std::span<const uvec3> triangles,
                                                 const Decomposition& wanted) {
     Kept& all = kept();
     std::function<void(const std::string&, double)> tell;
+    std::function<bool()> stop;
     const auto find = [&]() -> std::shared_ptr<const ConvexParts> {
         const std::lock_guard held(all.lock);
         tell = all.tell;
+        stop = all.stop;
         for (const Made& one : all.made)
             if (equal(one, vertices, triangles, wanted)) return one.parts;
         return nullptr;
@@ -80,7 +91,7 @@ std::shared_ptr<const ConvexParts> convex_parts(std::span<const vec3> vertices, 
     if (auto known = find()) return known;
     auto made = std::make_shared<ConvexParts>();
     if (!take_from_cache(vertices, triangles, wanted, *made)) {
-        *made = decompose(vertices, triangles, wanted, teller(tell, triangles.size()));
+        *made = decompose(vertices, triangles, wanted, teller(tell, stop, triangles.size()));
         put_in_cache(vertices, triangles, wanted, *made);
     }
     const std::lock_guard held(all.lock);
@@ -93,6 +104,7 @@ std::string summary_of(const ConvexParts& made) {
     std::string text = "is " + std::to_string(made.parts.size()) + (made.parts.size() == 1 ? " convex part" : " convex parts") +
                        "; their surface is within " + percent(made.error) +
                        " of its size of the mesh's (that of its hull: " + percent(made.hull_error) + ")";
+    if (made.given_up) text += "; to cut it up takes too long, as where faces cross: mend it, or allow a larger \"error\"";
     if (!made.enough) text += "; more \"parts\" would be nearer";
     if (made.closed > 0) text += "; " + std::to_string(made.closed) + " open edges are closed by flat lids";
     if (made.inside_out) text += "; faces that pointed inward are turned";
@@ -140,6 +152,7 @@ void decompose_mesh(const Examination& body, Body& b, CheckedShapes& shapes, std
                          (crossing == 0 ? ""
                                         : "; " + std::to_string(crossing) +
                                               " triangles cut through others: what their solids share has its mass twice"));
+        if (const std::string why = unusable_cache(); !why.empty()) notes->push_back(at.place() + ": " + why);
     }
     if (!b.inertial) {
         const double density = static_cast<double>(b.density);

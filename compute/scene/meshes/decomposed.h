@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "compute/scene/meshes/decomposition.h"
@@ -17,6 +18,12 @@ std::shared_ptr<const ConvexParts> convex_parts(std::span<const vec3> vertices, 
 
 // Who is told of decompositions that take more than half a second: with a text and what is done, 0 to 1. Of the process.
 void tell_of_decompositions(std::function<void(const std::string&, double)> tell);
+
+// Whether decompositions are to be stopped, asked many times a second: convex_parts() then throws. Of the process.
+void stop_decompositions_if(std::function<bool()> stop);
+struct DecompositionStopped : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 // In words, with its defects.
 std::string summary_of(const ConvexParts& made);

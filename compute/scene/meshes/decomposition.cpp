@@ -30,7 +30,15 @@ using glm::ivec3;
 using glm::uvec3;
 
 constexpr std::size_t most_pieces = 256, most_corners = 64;
-constexpr double nearly_flat = 1e-6;  // volume of a mesh that encloses nothing, over that of its box
+constexpr std::uint64_t corner_effort = 64;  // of a point of a hull that is made, in distances
+constexpr double nearly_flat = 1e-6;         // volume of a mesh that encloses nothing, over that of its box
+
+// A finer wish may take more.
+std::uint64_t most_for(const Decomposition& wanted, std::uint64_t most) {
+    constexpr double usual = 0.02;
+    const double error = static_cast<double>(wanted.error);
+    return error < usual ? static_cast<std::uint64_t>(static_cast<double>(most) * (usual / error)) : most;
+}
 
 // A mesh of size 1 about the middle of its box, without open edges.
 struct Solid {
@@ -228,6 +236,26 @@ void sample(const dvec3& a, const dvec3& b, const dvec3& c, double spacing, cons
         for (int k = 0; k <= n - i; ++k) visit(a + (b - a) * (double(i) / n) + (c - a) * (double(k) / n));
 }
 
+// Counts what is done, and ends it beyond a limit.
+struct TooMuch {};
+constexpr std::uint64_t unlimited_effort = ~std::uint64_t{0};
+class Effort {
+public:
+    explicit Effort(const std::function<void(double)>& tell) : tell_(tell) {}
+    void limit(std::uint64_t more) { most_ = more, spent_ = 0; }
+    void spend(std::uint64_t distances) {
+        spent_ += distances;
+        if (spent_ > most_) throw TooMuch{};
+        if (tell_) tell_(share_);
+    }
+    void reach(double share) { share_ = share; }
+
+private:
+    std::uint64_t most_ = unlimited_effort, spent_ = 0;
+    const std::function<void(double)>& tell_;
+    double share_ = 0;  // of all that is to be done
+};
+
 struct Error {
     double most = 0;
     dvec3 at{0};
@@ -237,8 +265,9 @@ struct Error {
 // Measures hulls against the solid.
 class Judge {
 public:
-    Judge(const Solid& solid, double error)
+    Judge(const Solid& solid, double error, Effort& effort)
         : solid_(solid),
+          effort_(effort),
           grid_(solid.points, solid.triangles, std::clamp(error * 0.8, 1.0 / 110, 1.0 / 50)),
           spacing_(error * 0.8) {
         for (const uvec3& t : solid.triangles) {
@@ -260,6 +289,12 @@ public:
 
     // Stops beyond `enough`.
     Error of(const ConvexHull& hull, const std::vector<dvec3>& points, double enough) const {
+        std::uint64_t looked_at = 0;
+        const Error error = of(hull, points, enough, looked_at);
+        effort_.spend(looked_at);
+        return error;
+    }
+    Error of(const ConvexHull& hull, const std::vector<dvec3>& points, double enough, std::uint64_t& looked_at) const {
         Error error;
         dvec3 lower(1e300), upper(-1e300);
         for (const std::uint32_t corner : hull.corners) {
@@ -269,12 +304,14 @@ public:
         const auto depth = [&](const dvec3& p, double least) {
             double depth = 1e300;
             for (const ConvexHull::Plane& plane : hull.planes) {
+                ++looked_at;
                 depth = std::min(depth, plane.offset - glm::dot(plane.normal, p));
                 if (depth <= least) break;
             }
             return depth;
         };
         const auto outside = [&](const dvec3& p, double distance) {
+            ++looked_at;
             if (distance > error.most) distance = std::min(distance, exact(p));
             if (distance > error.most) error = {distance, p, false};
         };
@@ -282,13 +319,15 @@ public:
             sample(points[face[0]], points[face[1]], points[face[2]], spacing_, [&](const dvec3& p) { outside(p, grid_.at(p)); });
             if (error.most > enough) return error;
         }
-        const ivec3 from = grid_.cell_of(lower), to = grid_.cell_of(upper) + 1;
+        const ivec3 from = grid_.cell_of(lower), to = grid_.cell_of(upper) + 1, cells = to - from + 1;
+        looked_at += static_cast<std::uint64_t>(cells.x) * static_cast<std::uint64_t>(cells.y * cells.z);
         for (int z = from.z; z <= to.z; ++z)
             for (int y = from.y; y <= to.y; ++y)
                 for (int x = from.x; x <= to.x; ++x)
                     if (const double distance = grid_.value(x, y, z); distance > error.most)
                         if (const dvec3 p = grid_.place(x, y, z); depth(p, 0) > 0) outside(p, distance);
         if (error.most > enough) return error;
+        looked_at += surface_.size();
         for (const Sample& one : surface_) {
             const dvec3 p = one.at;
             if (p.x < lower.x || p.y < lower.y || p.z < lower.z || p.x > upper.x || p.y > upper.y || p.z > upper.z) continue;
@@ -335,6 +374,7 @@ public:
 
 private:
     const Solid& solid_;
+    Effort& effort_;
     DistanceGrid grid_;
     double spacing_, owed_ = 0;
     std::vector<Sample> surface_;
@@ -350,12 +390,12 @@ struct PartOfSolid {
 
 class Decomposer {
 public:
-    Decomposer(const Solid& solid, const Decomposition& wanted, const std::function<void(double)>& tell)
+    Decomposer(const Solid& solid, const Decomposition& wanted, Effort& effort)
         : wanted_(wanted),
-          tell_(tell),
+          effort_(effort),
           error_(static_cast<double>(wanted.error)),
           points_(solid.points),
-          judge_(solid, static_cast<double>(wanted.error)) {
+          judge_(solid, static_cast<double>(wanted.error), effort) {
         SolidPiece all;
         for (const uvec3& t : solid.triangles) all.add(normal_of(solid, t), {{t.x, t.y}, {t.y, t.z}, {t.z, t.x}});
         whole_ = all;
@@ -375,8 +415,8 @@ public:
             });
             if (next == parts_.end() || next->error.most <= error_) break;
             worst = std::max(worst, next->error.most);
-            if (tell_)
-                tell_(0.8 * std::max(double(parts_.size()) / most_pieces, (worst - next->error.most) / (worst - error_ + 1e-9)));
+            effort_.reach(0.8 *
+                          std::max(double(parts_.size()) / most_pieces, (worst - next->error.most) / (worst - error_ + 1e-9)));
             const std::optional<CuttingPlane> plane = best_cut(*next);
             if (!plane) {
                 next->error.most = 0;  // nothing cuts it
@@ -409,6 +449,15 @@ public:
         }
     }
 
+    // In place of parts.
+    void take_hull() {
+        std::vector<dvec3> all;
+        parts_.assign(1, part_of(whole_));
+        all.swap(parts_[0].points);
+        give_hull(parts_[0], all, wanted_.vertices);
+        enough_ = true;
+    }
+
     std::vector<PartOfSolid>& parts() { return parts_; }
     bool enough() const { return enough_; }
     double error_of_all() const {
@@ -430,6 +479,7 @@ private:
     }
 
     void give_hull(PartOfSolid& part, const std::vector<dvec3>& all, std::size_t most) const {
+        effort_.spend(all.size() * corner_effort);
         const ConvexHull rough = convex_hull(all, most);
         for (const std::uint32_t corner : rough.corners) part.points.push_back(all[corner]);
         part.hull = convex_hull(part.points, most, 0);
@@ -443,6 +493,7 @@ private:
 
     // Volume between what it cuts and the hulls of that; none if it cuts nothing off.
     std::optional<double> left_over(const PartOfSolid& part, const CuttingPlane& plane) {
+        effort_.spend(part.piece.edges.size() * corner_effort);
         const std::size_t before = points_.size();
         auto [below, above] = cut(part.piece, plane, points_);
         double left = 0, volumes[2] = {0, 0};
@@ -537,7 +588,7 @@ private:
     bool merge_best(double limit) {
         if (limit != limit_) pairs_.clear(), limit_ = limit, numbers_.clear();
         while (numbers_.size() < parts_.size()) numbers_.push_back(next_number_++);
-        if (tell_) tell_(0.8 + 0.2 * std::min(1.0, double(wanted_.parts) / double(parts_.size())));
+        effort_.reach(0.8 + 0.2 * std::min(1.0, double(wanted_.parts) / double(parts_.size())));
         std::optional<std::pair<std::size_t, std::size_t>> best;
         double least = 1e300;
         for (std::size_t i = 0; i < parts_.size(); ++i)
@@ -560,7 +611,7 @@ private:
     }
 
     const Decomposition& wanted_;
-    const std::function<void(double)>& tell_;
+    Effort& effort_;
     double error_;
     std::vector<dvec3> points_;
     Judge judge_;
@@ -576,14 +627,22 @@ private:
 }  // namespace
 
 ConvexParts decompose(std::span<const vec3> vertices, std::span<const uvec3> triangles, const Decomposition& wanted,
-                      const std::function<void(double)>& tell) {
+                      const std::function<void(double)>& tell, std::uint64_t most) {
     const Solid solid = solid_of(vertices, triangles);
     ConvexParts made;
     integrate(solid, made);
-    Decomposer decomposer(solid, wanted, tell);
+    Effort effort(tell);
+    Decomposer decomposer(solid, wanted, effort);
     made.hull_error = decomposer.error_of_hull();
-    decomposer.cut_up();
-    decomposer.merge();
+    try {
+        effort.limit(most_for(wanted, most));
+        decomposer.cut_up();
+        decomposer.merge();
+    } catch (const TooMuch&) {
+        made.given_up = true;
+    }
+    effort.limit(unlimited_effort);
+    if (made.given_up) decomposer.take_hull();
     std::erase_if(decomposer.parts(), [&](const PartOfSolid& part) {
         std::vector<vec3> corners;
         for (const dvec3& p : part.points) corners.push_back(vec3(solid.middle + p * solid.size));
@@ -605,7 +664,9 @@ ConvexParts decompose(std::span<const vec3> vertices, std::span<const uvec3> tri
 double hull_error(std::span<const vec3> vertices, std::span<const uvec3> triangles) {
     const Solid solid = solid_of(vertices, triangles);
     const Decomposition usual;
-    return Decomposer(solid, usual, {}).error_of_hull();
+    const std::function<void(double)> tell;
+    Effort effort(tell);
+    return Decomposer(solid, usual, effort).error_of_hull();
 }
 
 }  // namespace scree

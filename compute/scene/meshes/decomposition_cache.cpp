@@ -7,8 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "host/files/file.h"
 
@@ -50,6 +53,28 @@ std::filesystem::path file_of(const Head& head) {
     std::snprintf(name, sizeof name, "%016llx%016llx.parts", static_cast<unsigned long long>(head.mesh),
                   static_cast<unsigned long long>(head.mesh_again ^ head.wanted * 0x9E3779B97F4A7C15u));
     return folder / name;
+}
+
+// Folders of SCREE_CACHE that could not be written, and what is still to be told of them.
+struct Unusable {
+    std::mutex lock;
+    std::set<std::filesystem::path> folders;
+    std::string reason;
+};
+Unusable& unusable() {
+    static Unusable all;
+    return all;
+}
+
+void note_unusable(const std::filesystem::path& folder) {
+    const char* given = std::getenv("SCREE_CACHE");
+    if (!given || !*given) return;  // nobody asked for it
+    const std::lock_guard held(unusable().lock);
+    if (!unusable().folders.insert(folder).second) return;
+    std::error_code failed;
+    const bool other = std::filesystem::exists(folder, failed) && !std::filesystem::is_directory(folder, failed);
+    unusable().reason = "SCREE_CACHE: \"" + folder.string() + "\" " + (other ? "is no folder" : "cannot be written") +
+                        "; convex parts are not kept";
 }
 
 }  // namespace
@@ -106,7 +131,8 @@ bool take_from_cache(std::span<const glm::vec3> vertices, std::span<const glm::u
     if (at != bytes.size()) return false;
     read.error = head.error;
     read.hull_error = head.hull_error;
-    read.enough = head.enough != 0;
+    read.enough = (head.enough & 1u) != 0;
+    read.given_up = (head.enough & 2u) != 0;
     read.closed = head.closed;
     read.thin = head.thin;
     read.inside_out = head.inside_out != 0;
@@ -125,7 +151,7 @@ void put_in_cache(std::span<const glm::vec3> vertices, std::span<const glm::uvec
     const std::filesystem::path file = file_of(head);
     if (file.empty()) return;
     head.parts = made.parts.size();
-    head.enough = made.enough;
+    head.enough = (made.enough ? 1u : 0u) | (made.given_up ? 2u : 0u);
     head.closed = made.closed;
     head.thin = made.thin;
     head.inside_out = made.inside_out;
@@ -147,7 +173,13 @@ void put_in_cache(std::span<const glm::vec3> vertices, std::span<const glm::uvec
         host::write_atomically(file, std::string_view(bytes));
     } catch (const host::FileError&) {
         // A cache is no result: the next run makes the parts anew.
+        note_unusable(file.parent_path());
     }
+}
+
+std::string unusable_cache() {
+    const std::lock_guard held(unusable().lock);
+    return std::exchange(unusable().reason, {});
 }
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "compute/scene/meshes/decomposed.h"
+#include "compute/scene/meshes/decomposition_cache.h"
 #include "compute/scene/meshes/hull.h"
 #include "compute/scene/meshes/mesh.h"
 #include "host/files/file.h"
@@ -60,6 +61,7 @@ std::shared_ptr<const Compound> parts_of_group(const std::vector<vec3>& vertices
         if (hull_error(skin.vertices, skin.triangles) <= far_from_convex) return as_hull();
         const std::shared_ptr<const ConvexParts> made = convex_parts(skin.vertices, skin.triangles, {});
         if (remark.empty()) remark = summary_of(*made);
+        if (const std::string why = unusable_cache(); !why.empty()) remark += "; " + why;
         return std::make_shared<const Compound>(compound_of(*made, std::make_shared<const Mesh>(std::move(skin))));
     } catch (const DecompositionError&) {
         return as_hull();

@@ -249,6 +249,8 @@ private:
         require(terms <= ((joint.flags & physics::JOINT_CURVED) != 0 ? 4u : 8u) && joint.fill_in == 0 && joint.a == NONE &&
                     joint.b == NONE && joint.block_body_a == NONE && joint.block_body_b == NONE,
                 "joint", j, "is a coupling of more than there is room for, or of bodies");
+        require(physics::reach_of_coupling(joint.flags) <= physics::FARTHEST_REACH, "joint", j,
+                "is a coupling that reaches too far");
         for (const physics::JointAxis& axis : joint.axes)
             require(axis.mode == 0, "joint", j, "is a coupling with axes of its own");
         for (physics::uint t = 0; t < terms; ++t) {

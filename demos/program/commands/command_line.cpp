@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "compute/scene/meshes/decomposed.h"
 #include "demos/program/commands/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
@@ -109,6 +110,8 @@ int run_command_line(int argc, char** argv) {
         return tell(cause_of(program, error) + "\nscree --help and scree COMMAND --help say more");
     } catch (const std::bad_alloc&) {
         throw;
+    } catch (const DecompositionStopped&) {
+        return tell("interrupted", interrupted);
     } catch (const WorkFailed& error) {
         return tell(error.what(), promise_missed);
     } catch (const host::DeviceLost& error) {

@@ -15,6 +15,8 @@ CONSTANT uint AXIS_SPRING = 8u;    // spring, damper or both
 CONSTANT uint AXIS_ROTOR = 16u;    // armature: the inertia of a rotor
 CONSTANT uint AXIS_CUT = 32u;      // of a joint with JOINT_CUT, where it is not free
 CONSTANT uint AXIS_COUPLED = 64u;  // a coupling acts on it: its row is placed even if it is free
+// Of a coupling's axis: the power of two that is its largest factor, 0 to 20.
+CONSTANT uint AXIS_REACH = 0x1F00u;
 struct JointAxis {
     uint mode;           // AXIS_*
     float lower, upper;  // limits of the coordinate, m or rad

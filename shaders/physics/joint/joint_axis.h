@@ -34,9 +34,13 @@ struct RowTarget {  // row speed + bias + compliance * impulse's change = 0
 LAW bool is_cut(JointAxis axis) {
     return (axis.mode & AXIS_CUT) != 0u;
 }
+// How far a coupling's coordinate goes while a joint of it goes 1 m or rad, as a power of two; 1 of other axes.
+LAW float reach_of(JointAxis axis) {
+    return uintBitsToFloat(((axis.mode & AXIS_REACH) << 15u) + 0x3F800000u);
+}
 // Bias velocity that corrects a position error (Baumgarte), limited, m/s or rad/s.
 LAW float joint_push(float coordinate, JointAxis axis, uint index, Parameters parameters) {
-    float fastest = choose(is_linear(index), parameters.push_speed, JOINT_TURN_SPEED);
+    float fastest = choose(is_linear(index), parameters.push_speed, JOINT_TURN_SPEED) * reach_of(axis);
     return clamped(coordinate * (choose(is_cut(axis), CUT_RATE, JOINT_RATE) * parameters.inverse_h), -fastest, fastest);
 }
 LAW float rigid_compliance(JointAxis axis, JointRow row) {

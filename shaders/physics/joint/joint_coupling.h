@@ -10,7 +10,7 @@
 // factors (Davis, Direct Methods for Sparse Linear Systems, 2006, ch. 3).
 //
 // A coupling's record is that of a joint without bodies, whose axes are free:
-//   flags          JOINT_COUPLES, the number of terms, and the mode of its axis, which is axes[0] but for the mode
+//   flags          JOINT_COUPLES, the number of terms, and the mode and reach of its axis, which is axes[0] but for the mode
 //   fill_in_of     of each term the joint's record times 8, plus the axis; `fill_in` is 0
 //   frame_a        factors of the first four terms; with JOINT_CURVED that of the last is the curve's slope at present
 //   frame_b        of the other four; with JOINT_CURVED the curve's coefficients
@@ -26,6 +26,7 @@ LAWS_BEGIN
 
 CONSTANT uint COUPLING_MODE_SHIFT = 8u;    // in Joint.flags: 8 bits
 CONSTANT uint COUPLING_TERMS_SHIFT = 16u;  // 4 bits
+CONSTANT uint COUPLING_REACH_SHIFT = 20u;  // 5 bits: those of AXIS_REACH
 // Joints of a block with couplings, these included: a coupling has a float for each of their axes, where a joint has its tiles.
 CONSTANT uint MAX_COUPLED_BLOCK = 54u;
 
@@ -33,8 +34,11 @@ LAW uint terms_of_coupling(uint flags) {
     return (flags >> COUPLING_TERMS_SHIFT) & 15u;
 }
 LAW JointAxis axis_of_coupling(JointAxis axis, uint flags) {
-    axis.mode = (flags >> COUPLING_MODE_SHIFT) & 255u;
+    axis.mode = ((flags >> COUPLING_MODE_SHIFT) & 255u) | ((flags >> 12u) & AXIS_REACH);
     return axis;
+}
+LAW uint reach_of_coupling(uint flags) {
+    return (flags >> COUPLING_REACH_SHIFT) & 31u;
 }
 LAW uint joint_of_term(uint term) {
     return term >> 3u;
@@ -62,6 +66,7 @@ LAW CoupledSum with_term(CoupledSum sum, float factor, JointRow row, float turns
     return with_masses(sum, factor, row);
 }
 CONSTANT float STEEPEST = 1.0e6f;
+CONSTANT uint FARTHEST_REACH = 20u;  // of the least power of two above that
 // Value, slope and second derivative of a curve, within bounds.
 struct CurvePoint {
     float value;

@@ -72,6 +72,21 @@ TEST_CASE("gears of 20 and 50 teeth keep their ratio to 1e-5 under load, and spe
     CHECK(world.joint(gear).force == vec3(0));
 }
 
+TEST_CASE("a coupling with a factor of a million is corrected as fast as its joints could be") {
+    for (const float factor : {1e6f, -1e6f}) {
+        CAPTURE(factor);
+        Scene scene = weightless();
+        const std::size_t slow = add_wheel(scene, 0, 1, {.motor = Motor{1e-5f, 100}}), fast = add_wheel(scene, 1, 1);
+        // 0.002 rad of the slow wheel, or 2000 of the coordinate.
+        couple(scene, {.joints = {{slow, factor}, {fast, 1}}, .offset = 2000});
+        World world(scene, awake);
+        world.step(120);
+        CHECK(std::abs(static_cast<double>(factor) * angle(world, slow) + angle(world, fast) - 2000) < 5);
+        world.step(600);
+        CHECK(std::abs(static_cast<double>(factor) * angle(world, slow) + angle(world, fast) - 2000) < 5);
+    }
+}
+
 TEST_CASE("a gear pair keeps its ratio for thousands of turns, and its energy") {
     Scene scene = weightless();
     const std::size_t a = add_wheel(scene, 0, 1), b = add_wheel(scene, 1, 2);

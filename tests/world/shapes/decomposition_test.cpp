@@ -279,6 +279,82 @@ TEST_CASE("convex parts: a file in the cache is taken if it is whole, and only t
     CHECK_FALSE(take_from_cache(cup.vertices, cup.triangles, wanted, read));
 }
 
+namespace {
+
+// Triangles between points anywhere: their faces cross everywhere.
+Mesh soup(int points, int triangles) {
+    Mesh mesh;
+    std::uint32_t state = 1;
+    const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+    const auto scattered = [&] { return static_cast<float>(next()) / 16777216.0f; };
+    for (int i = 0; i < points; ++i) {
+        const float x = scattered(), y = scattered(), z = scattered();
+        mesh.vertices.emplace_back(x, y, z);
+    }
+    const auto count = static_cast<std::uint32_t>(points);
+    for (int i = 0; i < triangles; ++i) {
+        const std::uint32_t a = next() % count, b = (a + 1 + next() % (count - 1)) % count;
+        std::uint32_t c = next() % count;
+        while (c == a || c == b) c = (c + 1) % count;
+        mesh.triangles.emplace_back(a, b, c);
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("convex parts: a mesh that is not cut up within the limit is its hull, and says so", "[mesh]") {
+    const Mesh mesh = soup(12, 30);
+    const ConvexParts made = decompose(mesh.vertices, mesh.triangles, {}, {}, 3'000'000);
+    CHECK(made.given_up);
+    REQUIRE(made.parts.size() == 1);
+    CHECK(made.parts[0].size() >= 4);
+    CHECK(made.error == Approx(made.hull_error));
+    CHECK(summary_of(made).find("to cut it up takes too long") != std::string::npos);
+    CHECK(hash_of(decompose(mesh.vertices, mesh.triangles, {}, {}, 3'000'000)) == hash_of(made));
+    const ConvexParts few = decompose(mesh.vertices, mesh.triangles, {.vertices = 8}, {}, 3'000'000);
+    CHECK(few.parts[0].size() <= 8);
+    const Mesh cup = cup_mesh(0.04f, 0.1f, 0.005f, 0.006f, 24);
+    CHECK_FALSE(parts_of(cup).given_up);
+    TemporaryFolder folder;
+    host::set_environment("SCREE_CACHE", folder.path().string());
+    put_in_cache(cup.vertices, cup.triangles, {}, decompose(cup.vertices, cup.triangles, {}, {}, 100'000));
+    ConvexParts read;
+    REQUIRE(take_from_cache(cup.vertices, cup.triangles, {}, read));
+    CHECK(read.given_up);
+    CHECK(read.enough);
+    host::set_environment("SCREE_CACHE", "off");
+}
+
+TEST_CASE("convex parts: cutting stops soon after it is asked to", "[mesh]") {
+    const Mesh mesh = soup(100, 300);
+    int asked = 0;
+    stop_decompositions_if([&] { return ++asked == 20; });
+    CHECK_THROWS_AS(convex_parts(mesh.vertices, mesh.triangles, {}), DecompositionStopped);
+    CHECK(asked == 20);
+    stop_decompositions_if({});
+}
+
+TEST_CASE("convex parts: a cache that is no folder is told once, and done without", "[mesh]") {
+    TemporaryFolder folder;
+    folder.write("file", "mine");
+    host::set_environment("SCREE_CACHE", (folder.path() / "file").string());
+    const auto notes_of = [&](float height) {
+        Scene scene;
+        scene.bodies.push_back(of_mesh(cup_mesh(0.04f, height, 0.005f, 0.006f, 12)));
+        std::vector<std::string> notes;
+        checked(scene, &notes);
+        return notes;
+    };
+    const std::vector<std::string> first = notes_of(0.11f), second = notes_of(0.12f);
+    REQUIRE(first.size() == 2);
+    CHECK(first[1].find("/bodies/0/shape/mesh: SCREE_CACHE: ") == 0);
+    CHECK(first[1].find("is no folder; convex parts are not kept") != std::string::npos);
+    CHECK(second.size() == 1);
+    CHECK(folder.read("file") == "mine");
+    host::set_environment("SCREE_CACHE", "off");
+}
+
 TEST_CASE("convex parts: a scene file asks for them, and keeps what they became", "[mesh]") {
     Scene scene;
     Mesh mesh = cup_mesh(0.04f, 0.1f, 0.005f, 0.006f, 24);
