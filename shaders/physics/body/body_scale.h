@@ -29,27 +29,15 @@ LAW float width_across(vec3 size, vec4 orientation, vec3 normal) {
     float without_x = smaller(size.y, size.z), without_y = smaller(size.x, size.z), without_z = smaller(size.x, size.y);
     return choose(slant.x >= slant.y && slant.x >= slant.z, without_x, choose(slant.y >= slant.z, without_y, without_z));
 }
-// Half width of the body along the contact plane, m: a point that slides further has left its face.
-LAW float width_along(BodyProperties properties, vec4 orientation, vec3 normal) {
-    bool is_box_face = properties.shape == SHAPE_BOX && !is_part(properties);
+// Half width of the face that the body turns to a contact with that normal, m. A coin's is its radius, not its thickness.
+LAW float face_half_width(BodyProperties properties, vec4 orientation, vec3 normal) {
+    bool is_hull = properties.shape == SHAPE_HULL, has_axis = is_disc(properties);
+    bool has_faces = (properties.shape == SHAPE_BOX || is_hull || has_axis) && !is_part(properties);
     float width = min_half_width(properties);
-    if (none(is_box_face)) return width;
-    return choose(is_box_face, width_across(properties.size, orientation, normal), width);
-}
-// The same for flat faces of every shape, the scale of what a patch may slip: a coin's is its radius, not its thickness.
-LAW float patch_width(BodyProperties properties, vec4 orientation, vec3 normal) {
-    float width = width_along(properties, orientation, normal);
-    bool axial = is_disc(properties);
-    bool other = (axial || properties.shape == SHAPE_HULL) && !is_part(properties);
-    if (none(other)) return width;
-    vec3 axes = vec3(properties.size.x, properties.size.y, properties.size.x);
-    vec3 size = choose(axial, axes, properties.size * 0.5f);
-    return choose(other, width_across(size, orientation, normal), width);
-}
-// width_along where the bodies touch in `points` points: with three and more a disc lies flat.
-LAW float face_half_width(BodyProperties properties, vec4 orientation, vec3 normal, uint points) {
-    bool lies = is_disc(properties) && !is_part(properties) && points > 2u;
-    return choose(lies, properties.size.x, width_along(properties, orientation, normal));
+    if (none(has_faces)) return width;
+    vec3 size = choose(is_hull, properties.size * 0.5f, properties.size);
+    size.z = choose(has_axis, size.x, size.z);
+    return choose(has_faces, width_across(size, orientation, normal), width);
 }
 
 // The anchor body of a contact: the one that rolls, or the thinner one. A ball rolls on, a small box slides over a

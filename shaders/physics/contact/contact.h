@@ -23,7 +23,7 @@ LAW float match_radius(Contact now, Contact before, BodyProperties a, BodyProper
     bool few = now.count < 3u || before.count < 3u;
     float narrow = MATCHED * smaller(min_half_width(a), min_half_width(b));
     if (none(!few)) return narrow;
-    float width = smaller(patch_width(a, now.orientation_a, now.normal), patch_width(b, now.orientation_b, now.normal));
+    float width = smaller(face_half_width(a, now.orientation_a, now.normal), face_half_width(b, now.orientation_b, now.normal));
     bool has_corners = is_general_convex(a.shape) || is_general_convex(b.shape);
     return choose(few, narrow, choose(has_corners, PATCH_MATCHED, FACE_MATCHED) * width);
 }

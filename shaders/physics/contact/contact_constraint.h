@@ -11,8 +11,8 @@ LAWS_BEGIN
 // thin turntable the contact of a thick box turned about the table, and the box crept inwards by 0.3 mm/s.
 LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
     bool few = contact.count < 3u;
-    float width_a = face_half_width(a, contact.orientation_a, contact.normal, contact.count);
-    float width_b = face_half_width(b, contact.orientation_b, contact.normal, contact.count);
+    float width_a = face_half_width(a, contact.orientation_a, contact.normal);
+    float width_b = face_half_width(b, contact.orientation_b, contact.normal);
     bool on_b = (few && stays_with_b(a, b)) || (!few && width_b < width_a);
     bool round = is_round(a) && is_round(b) && contact.count == 1u;
     return choose(round, CONSTRAINT_ROUND, choose(on_b, CONSTRAINT_ON_B, 0u));
@@ -63,11 +63,14 @@ LAW vec3 patch_centre(Contact contact, float speculative, bool on_b) {
     return centre * reciprocal(weights);
 }
 
-// The slide after which the points of a contact have left the body they slide over, m: half the width of its face.
+// The slide after which the points of a contact have left the body they slide over, m: half the width of its face. A part
+// has none, since its neighbours go on where it ends: thin walls of compounds slid into each other.
 LAW float slide_limit_of(Contact contact, BodyProperties ta, BodyProperties tb, uint anchor) {
-    float limit_a = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
-    float limit_b = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
-    return choose(anchor == CONSTRAINT_ON_B, limit_a, choose(anchor == CONSTRAINT_ROUND, 1.0e30f, limit_b));
+    bool over_a = anchor == CONSTRAINT_ON_B;
+    float width_a = face_half_width(ta, contact.orientation_a, contact.normal);
+    float width_b = face_half_width(tb, contact.orientation_b, contact.normal);
+    bool endless = anchor == CONSTRAINT_ROUND || (over_a && is_part(ta)) || (!over_a && is_part(tb));
+    return choose(endless, 1.0e30f, choose(over_a, width_a, width_b));
 }
 
 // The constraint of a contact between inactive bodies, which no pass solves.

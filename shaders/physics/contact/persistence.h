@@ -79,7 +79,7 @@ LAW bool is_persistent(Contact contact, BodyProperties ta, Pose a, Velocity va, 
     if (none(keeps)) return keeps;
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
-    float size = smaller(patch_width(ta, a.orientation, contact.normal), patch_width(tb, b.orientation, contact.normal));
+    float size = smaller(face_half_width(ta, a.orientation, contact.normal), face_half_width(tb, b.orientation, contact.normal));
     keeps = keeps && dot3(tilt, tilt) * size <= KEPT_TILT_SQUARED && dot3(spin, spin) * size <= KEPT_SPIN_SQUARED;
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;

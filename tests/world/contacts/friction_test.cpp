@@ -157,6 +157,51 @@ TEST_CASE("a contact that slides within a step by more than the half width of th
 
 namespace {
 
+Hull slab(vec3 half) {
+    Hull hull;
+    for (int k = 0; k < 8; ++k)
+        hull.points.emplace_back(half * vec3((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1));
+    return hull;
+}
+// A slab in two halves, side by side along x.
+Compound halves(vec3 half) {
+    const vec3 one(half.x / 2, half.y, half.z);
+    return Compound{
+        {Part{.shape = slab(one), .position = vec3(-one.x, 0, 0)}, Part{.shape = slab(one), .position = vec3(one.x, 0, 0)}}};
+}
+
+}  // namespace
+
+TEST_CASE("thin plates slide over each other without sinking, as boxes, as hulls and in parts") {
+    for (const int kind : {0, 1, 2}) {
+        for (const float speed : {0.5f, 1.0f, 3.0f}) {
+            const auto shape = [&](vec3 half) -> Shape {
+                return kind == 0 ? Shape(Box{half}) : kind == 1 ? Shape(slab(half)) : Shape(halves(half));
+            };
+            Scene scene;
+            Body table{.shape = shape({1, 0.002f, 0.2f})}, plate{.shape = shape({0.05f, 0.002f, 0.05f})};
+            table.motion = Motion::fixed;
+            table.friction = plate.friction = 0;
+            plate.position = {-0.8f, 0.004f, 0.01f};
+            plate.velocity = {speed, 0, 0};
+            scene.bodies = {table, plate};
+            World world(scene, awake(), 1);
+            float lowest = 0.004f, sinking = 0;
+            for (int k = 0; k < static_cast<int>(1.4f / speed * 60); ++k) {
+                world.step();
+                lowest = std::min(lowest, world.bodies()[1].position.y);
+                sinking = std::max(sinking, std::abs(world.bodies()[1].velocity.y));
+            }
+            CAPTURE(kind, speed, lowest, sinking);
+            CHECK(world.bodies()[1].position.x > 0.5f);
+            CHECK(lowest > 0.0039f);
+            CHECK(sinking < 0.02f);
+        }
+    }
+}
+
+namespace {
+
 // A ball that slides and spins on a plane: its speed and spin after `seconds`, by the ellipsoidal law of friction.h in small
 // steps. `arm`: of its spinning resistance, over the friction.
 struct SlidingBall {
