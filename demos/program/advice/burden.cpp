@@ -101,7 +101,7 @@ std::vector<Burden> overburdened(const World& world) {
         if (own[i] <= 0 || on[i] < least_ratio * own[i]) continue;
         const physics::BodyProperties& body = state.properties[state.row_of(i)];
         const double width =
-            2 * static_cast<double>(physics::patch_width(body, state.poses[state.row_of(i)].orientation, vec3(up)));
+            2 * static_cast<double>(physics::face_half_width(body, state.poses[state.row_of(i)].orientation, vec3(up)));
         const double ratio = on[i] / own[i];
         if (std::max(falling * ratio, substeps_for(ratio, width, gravity, crushed)) < present) continue;
         all.push_back({i, heaviest[i], ratio, needed_substeps(ratio, width, gravity)});
