@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -151,21 +153,22 @@ std::string coupling_text(const Scene& scene, const Coupling& coupling) {
     return text;
 }
 
-ordered_json number_or_null(float value) {
-    return std::abs(value) >= unlimited ? ordered_json() : ordered_json(value);
+// As many digits as a float has; null: unlimited.
+ordered_json number_of(float value) {
+    return std::abs(value) >= unlimited ? ordered_json() : ordered_json(std::stod(fmt::format("{:.7g}", value)));
 }
 ordered_json json_of(const FreeAxis& one) {
     const Axis& axis = one.behaviour;
     ordered_json made = {{"axis", axis_words[static_cast<std::size_t>(one.axis)]}, {"unit", is_angle(one.axis) ? "rad" : "m"}};
-    if (is_bounded(axis)) made["limits"] = {number_or_null(axis.limits->lower), number_or_null(axis.limits->upper)};
+    if (is_bounded(axis)) made["limits"] = {number_of(axis.limits->lower), number_of(axis.limits->upper)};
     if (axis.spring)
-        made["spring"] = {{"stiffness", axis.spring->stiffness},
-                          {"damping", axis.spring->damping},
-                          {"rest", axis.spring->rest},
-                          {"max_force", number_or_null(axis.spring->max_force)}};
-    if (axis.motor) made["motor"] = {{"speed", axis.motor->speed}, {"max_force", number_or_null(axis.motor->max_force)}};
-    if (axis.friction > 0) made["friction"] = axis.friction;
-    if (axis.armature > 0) made["armature"] = axis.armature;
+        made["spring"] = {{"stiffness", number_of(axis.spring->stiffness)},
+                          {"damping", number_of(axis.spring->damping)},
+                          {"rest", number_of(axis.spring->rest)},
+                          {"max_force", number_of(axis.spring->max_force)}};
+    if (axis.motor) made["motor"] = {{"speed", number_of(axis.motor->speed)}, {"max_force", number_of(axis.motor->max_force)}};
+    if (axis.friction > 0) made["friction"] = number_of(axis.friction);
+    if (axis.armature > 0) made["armature"] = number_of(axis.armature);
     return made;
 }
 
@@ -254,10 +257,10 @@ std::string mechanism_json(const Scene& scene, const std::string& title) {
         const Joint& joint = scene.joints[j];
         if (const auto* coupling = std::get_if<Coupling>(&joint.kind)) {
             ordered_json one = {{"name", joint.name}, {"index", j}, {"rigid", is_rigid(*coupling)}};
-            if (coupling->offset) one["offset"] = *coupling->offset;
+            if (coupling->offset) one["offset"] = number_of(*coupling->offset);
             for (const CoupledAxis& axis : coupling->joints)
                 one["joints"].push_back(
-                    {{"name", joint_word(scene, axis.joint)}, {"joint", axis.joint}, {"factor", axis.factor}});
+                    {{"name", joint_word(scene, axis.joint)}, {"joint", axis.joint}, {"factor", number_of(axis.factor)}});
             if (!coupling->curve.empty()) one["curve"] = coupling->curve;
             if (!is_rigid(*coupling)) one["sum"] = json_of(FreeAxis{JointAxis::x, coupling->sum});
             made["couplings"].push_back(one);
