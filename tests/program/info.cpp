@@ -63,11 +63,12 @@ TEST_CASE("program: info counts every kind of joint of a scene, and refuses what
     const auto degrees = [&](const std::string& joints) { return info_of(scene(joints)).at("degrees_of_freedom").get<int>(); };
     const std::string between = R"("a": "a", "b": "b", "anchor": [0.5, 0, 0]})";
     CHECK(degrees("") == 12);
-    CHECK(degrees(R"({"ball": {}, )" + between) == 9);
-    CHECK(degrees(R"({"hinge": {}, )" + between) == 7);
-    CHECK(degrees(R"({"fixed": {}, )" + between) == 6);
-    CHECK(degrees(R"({"hinge": {}, )" + between + R"(, {"fixed": {}, "b": "a", "anchor": [0, 0, 0]})") == 1);
-    CHECK(degrees(R"({"hinge": {}, )" + between + ", " + R"({"hinge": {}, )" + between) == 2);  // a loop: 12 - 10
+    CHECK(degrees(R"({"kind": {"ball": {}}, )" + between) == 9);
+    CHECK(degrees(R"({"kind": {"hinge": {}}, )" + between) == 7);
+    CHECK(degrees(R"({"kind": {"fixed": {}}, )" + between) == 6);
+    CHECK(degrees(R"({"kind": {"hinge": {}}, )" + between + R"(, {"kind": {"fixed": {}}, "b": "a", "anchor": [0, 0, 0]})") == 1);
+    CHECK(degrees(R"({"kind": {"hinge": {}}, )" + between + ", " + R"({"kind": {"hinge": {}}, )" + between) ==
+          2);  // a loop: 12 - 10
     const Outcome none = run_scree("info '" + (place / "none.urdf").string() + "'");
     CHECK(none.status == 2);
     CHECK(says(none.errors, "none.urdf"));

@@ -110,7 +110,8 @@ TEST_CASE("program: list names the demos, help teaches, the version is told", "[
     for (const char* name : {"\nstack20 ", "\npyramid100 ", "\njenga "}) REQUIRE(says(list.output, name));
     const Outcome help = run_scree("--help");
     REQUIRE(help.status == 0);
-    for (const char* command : {"list", "devices", "run", "compare", "check", "validate", "bench", "export", "info", "Exit status"})
+    for (const char* command :
+         {"list", "devices", "run", "compare", "check", "validate", "bench", "export", "info", "Exit status"})
         REQUIRE(says(help.output, command));
     REQUIRE(says(run_scree("--version").output, "scree "));
 }

@@ -24,8 +24,8 @@ void add_info(CLI::App& program, int&) {
     command->add_flag("--json", options->json, "JSON in place of text.");
     add_options(*command, options->scene.imported);
     command->footer(
-        "Degrees of freedom: 6 of each free base, and those of joints, less one of each rigid coupling. Where\n"
-        "joints close loops, each takes 6; since its joints may hold the same twice, the number is then a least\n"
+        "Degrees of freedom: 6 of each free base, and those of joints, less one of each rigid coupling.\nWhere "
+        "joints close loops, each takes 6; since its joints may hold the same twice, the number is\nthen a least "
         "one.\n\nExamples:\n  scree info robot.urdf --base free\n  scree info quadruped.xml --json");
     command->callback([options] {
         const LoadedScene subject = load_subject(options->scene);
