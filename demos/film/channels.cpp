@@ -16,13 +16,6 @@ namespace {
 // Rays in one batch: bounds the memory of large pictures.
 constexpr std::size_t pixels_at_once = 1u << 18;
 
-RayQuery ray_through(const host::PixelRays& rays, float x, float y) {
-    const vec3 offset = rays.corner + rays.right * x + rays.down * y;
-    if (rays.orthographic)
-        return {.from = rays.eye + offset - rays.forward * rays.seen_before, .along = rays.forward, .solid = false};
-    return {.from = rays.eye + offset * rays.near_plane, .along = glm::normalize(offset), .solid = false};
-}
-
 class Casting {
 public:
     Casting(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
@@ -66,11 +59,7 @@ private:
     void take(std::size_t i, const RayQuery& ray, const std::optional<QueryHit>& hit) {
         if (choice_.flow) note_flow(i, ray, hit);
         if (!hit) return;
-        if (choice_.depth) {
-            const glm::dvec3 from = glm::dvec3(ray.from) - glm::dvec3(rays_.eye),
-                             along = glm::dvec3(ray.along) * double{hit->distance};
-            made.depth[i] = static_cast<float>(glm::dot(from + along, glm::dvec3(rays_.forward)));
-        }
+        if (choice_.depth) made.depth[i] = depth_along(rays_, ray, hit->distance);
         if (choice_.body) made.body[i] = static_cast<std::int32_t>(hit->body);
         if (choice_.part) made.part[i] = static_cast<std::int32_t>(hit->part);
         if (choice_.normal)
@@ -101,6 +90,18 @@ private:
 };
 
 }  // namespace
+
+RayQuery ray_through(const host::PixelRays& rays, float x, float y) {
+    const vec3 offset = rays.corner + rays.right * x + rays.down * y;
+    if (rays.orthographic)
+        return {.from = rays.eye + offset - rays.forward * rays.seen_before, .along = rays.forward, .solid = false};
+    return {.from = rays.eye + offset * rays.near_plane, .along = glm::normalize(offset), .solid = false};
+}
+
+float depth_along(const host::PixelRays& rays, const RayQuery& ray, float distance) {
+    const glm::dvec3 from = glm::dvec3(ray.from) - glm::dvec3(rays.eye), along = glm::dvec3(ray.along) * double{distance};
+    return static_cast<float>(glm::dot(from + along, glm::dvec3(rays.forward)));
+}
 
 Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
                      const Before& before, std::size_t copy) {

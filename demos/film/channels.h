@@ -12,6 +12,10 @@
 #include "compute/world.h"
 #include "host/canvas/camera.h"
 
+namespace scree::host {
+struct PixelRays;  // host/canvas/frame.h
+}
+
 namespace scree::demos {
 
 struct ChannelChoice {
@@ -41,6 +45,11 @@ Channels channels_of(const World& world, const host::Camera& camera, int width, 
 
 // The rays through the centres of all pixels, row by row from the upper left, which the channels are cast with.
 std::vector<RayQuery> rays_through_pixels(const host::Camera& camera, int width, int height);
+
+// The ray through a point of the picture, pixels from the upper left.
+RayQuery ray_through(const host::PixelRays& rays, float x, float y);
+// Depth of what a ray meets at a distance, m along the optical axis.
+float depth_along(const host::PixelRays& rays, const RayQuery& ray, float distance);
 
 // The words of --channels: depth, ids, parts, normals, flow; others are ignored.
 const std::vector<std::string>& channel_words();

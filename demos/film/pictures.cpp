@@ -12,6 +12,7 @@
 #include "compute/distributed/ranks.h"
 #include "compute/scene_file/hex_color.h"
 #include "compute/tables/state.h"
+#include "demos/film/annotations.h"
 #include "demos/film/camera.h"
 #include "demos/film/camera_track.h"
 #include "demos/film/channel_writer.h"
@@ -86,7 +87,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
 bool can_be_parts(const PictureOptions& options, const LoadedScene& subject, World& world) {
     if (style_of(options, subject.style).color == ShownQuantity::own) return false;  // ranks do not have them
     return world.runner().ranks() && options.canvas != "vulkan" && options.shutter == 0 && options.channels.empty() &&
-           options.background == "sky";
+           options.annotations.empty() && options.background == "sky";
 }
 
 // All ranks draw with one sample a pixel, as parts of pictures are, so that pictures of the whole world look alike.
@@ -124,6 +125,7 @@ struct Pictures::Impl {
     std::string cameras;  // file; may be empty
     std::optional<ChannelWriter> channels;
     std::vector<host::ExrLayer> layers{};  // of the picture that is being drawn
+    std::unique_ptr<Annotations> annotations{};
     PictureTimes times;
     std::optional<PastPoses> past{};  // for motion blur
     double shutter = 0;               // s
@@ -212,7 +214,8 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                          {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
-    writer.folder = options.frames;
+    writer.folder = folder_of_frames(options);
+    writer.name = name_of_frames(options);
     writer.video = options.video;
     writer.preview = options.preview;
     writer.raw = options.raw;
@@ -235,6 +238,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     in.blurred = options.shutter_samples;
     if (options.shutter > 0) in.past.emplace(in.shutter);
     if (!options.channels.empty() && in.is_first()) in.channels.emplace(options, world);
+    if (in.is_first()) in.annotations = make_annotations(options);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
         in.begun = in.before = std::max(0, static_cast<int>(std::ceil((world.time() + half_step - in.from) * in.fps)));
@@ -274,6 +278,7 @@ void Pictures::after_step() {
         if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
         if (!in.past) in.draw(camera);
         if (in.channels) in.layers = in.channels->add(in.world, camera);
+        if (in.annotations) in.annotations->add(in.world, camera);
         if (in.past) in.draw_blurred(camera);
     });
     ++in.begun;
@@ -284,6 +289,7 @@ void Pictures::finish() {
     if (!interior_->is_first()) return;
     interior_->take();
     timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
+    if (interior_->annotations) interior_->annotations->finish();
     if (!interior_->cameras.empty()) host::write_atomically(interior_->cameras, interior_->track.json());
 }
 

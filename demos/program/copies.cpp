@@ -122,7 +122,7 @@ void require_sense(const CLI::App& command, const CopyOptions& options) {
                 throw UsageError(fmt::format("{}: is of copies of the scene; add --copies N", option));
         return;
     }
-    for (const char* option : {"--input", "--resume", "--checkpoint", "--channels", "--export"})
+    for (const char* option : {"--input", "--resume", "--checkpoint", "--channels", "--annotations", "--export"})
         if (command.count(option) != 0)
             throw UsageError(fmt::format("{}: is of one scene, not of copies; leave out --copies", option));
     if (command.count("--save") != 0 && !options.copy) throw UsageError("--save: is of one copy; say which with --copy");

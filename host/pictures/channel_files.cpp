@@ -22,12 +22,25 @@ std::vector<std::uint8_t> png16_bytes(int width, int height, int channels, std::
                        std::as_bytes(values));
 }
 
-void write_png16(const std::filesystem::path& path, int width, int height, int channels, std::span<const std::uint16_t> values) {
+namespace {
+
+void write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
     try {
-        write_atomically(path, std::as_bytes(std::span<const std::uint8_t>(png16_bytes(width, height, channels, values))));
+        write_atomically(path, std::as_bytes(std::span(bytes)));
     } catch (const FileError& error) {
         throw ImageError(error.what());
     }
+}
+
+}  // namespace
+
+void write_png8(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> values) {
+    write_bytes(path, encoded_png({.width = width, .height = height, .bits = 8, .content = PngContent::grey, .is_light = false},
+                                  std::as_bytes(values)));
+}
+
+void write_png16(const std::filesystem::path& path, int width, int height, int channels, std::span<const std::uint16_t> values) {
+    write_bytes(path, png16_bytes(width, height, channels, values));
 }
 
 }  // namespace scree::host

@@ -98,9 +98,11 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-// Frames and their channels, of an earlier run. A shorter one would leave the later of them, as if its own.
-std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder) {
-    static const std::regex of_frame("(frame|depth|ids|parts|normals|flow)_[0-9]{6,}\\.(png|exr|npy)");
+// Frames, their channels and annotations, of an earlier run. A shorter one would leave the later of them, as if its own.
+std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder, const std::string& name) {
+    static const std::regex named("(frame|depth|ids|parts|normals|flow)_[0-9]{6,}\\.(png|exr|npy)|annotations\\.json");
+    static const std::regex numbered("[0-9]{6,}\\.png");
+    const std::regex& of_frame = name.empty() ? numbered : named;
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (std::regex_match(entry.path().filename().string(), of_frame)) found.push_back(entry.path());
@@ -182,7 +184,7 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     if (!options.folder.empty()) {
         require_writable_folder(options.folder);
         in.folder.take(options.folder);
-        earlier = frames_in(options.folder);
+        earlier = frames_in(options.folder, options.name);
         if (!earlier.empty() && !options.overwrite)
             throw ImageError(options.folder.string() + ": holds frames already, such as " + earlier[0].filename().string() +
                              "; name another folder, or remove them (--overwrite does)");
@@ -196,11 +198,12 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     if (!options.video.empty()) in.add_video(in.video, options.video, Clip::film);
     if (!options.preview.empty()) in.add_video(in.preview, options.preview, preview);
     if (!options.folder.empty()) {
-        const auto write = [folder = options.folder, alpha = options.alpha, exr = options.exr](const Job& job) {
+        const auto write = [folder = options.folder, begin = options.name, alpha = options.alpha,
+                            exr = options.exr](const Job& job) {
             char name[32];
-            std::snprintf(name, sizeof name, "frame_%06d.%s", job.number, exr ? "exr" : "png");
-            if (exr) return write_exr(folder / name, *job.image, alpha, *job.layers);
-            write_png(folder / name, alpha ? straight(*job.image) : *job.image);
+            std::snprintf(name, sizeof name, "%06d.%s", job.number, exr ? "exr" : "png");
+            if (exr) return write_exr(folder / (begin + name), *job.image, alpha, *job.layers);
+            write_png(folder / (begin + name), alpha ? straight(*job.image) : *job.image);
         };
         in.add_output(encoders(options.threads), write, {});
     }

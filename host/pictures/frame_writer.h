@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "host/pictures/exr_file.h"
@@ -12,6 +13,7 @@ namespace scree::host {
 
 struct FrameWriterOptions {
     std::filesystem::path folder{};   // of frame_000000.png, ...; empty: no files
+    std::string name = "frame_";      // how these begin; may be empty
     std::filesystem::path video{};    // an .mp4 file; empty: no video
     std::filesystem::path preview{};  // small animated .gif or .webp; empty: none
     std::filesystem::path raw{};      // raw frames (host/pictures/raw_frames.h): a file, a pipe or "-"; empty: none
@@ -22,7 +24,7 @@ struct FrameWriterOptions {
     int threads = 0;         // PNG encoders; 0: one, or two when there are more than four processors
     bool exr = false;        // frame_000000.exr instead of .png
     bool alpha = false;      // frames have alpha, by which their light is multiplied; videos and raw frames drop it
-    bool overwrite = false;  // frames and channels of an earlier run are removed from the folder, else refused
+    bool overwrite = false;  // frames, channels and labels of an earlier run are removed from the folder, else refused
     int waiting = 6;         // queue length at which add() blocks; bounds memory
 };
 

@@ -26,8 +26,9 @@ struct Program {
     int status = 0;
     Program() {
         app.add_flag("--version");
-        for (auto add : {demos::add_list, demos::add_devices, demos::add_run, demos::add_sweep, demos::add_view, demos::add_serve,
-                         demos::add_compare, demos::add_check, demos::add_validate, demos::add_bench, demos::add_export})
+        for (auto add :
+             {demos::add_list, demos::add_devices, demos::add_run, demos::add_sweep, demos::add_view, demos::add_serve,
+              demos::add_compare, demos::add_check, demos::add_validate, demos::add_bench, demos::add_export, demos::add_info})
             add(app, status);
     }
     const CLI::App* command(const std::string& name) {

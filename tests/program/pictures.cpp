@@ -51,6 +51,7 @@ std::string scene_with_camera(const std::string& camera) {
 TEST_CASE("program: the lines for data sets of help and guide work in an empty folder", "[program]") {
     const std::string few = " --bodies 20 --seconds 0.1 --size 64x48 --backend cpu --quiet";
     for (const std::string line : {"run pile --frames out --channels depth,ids,normals,flow --cameras out/cameras.json",
+                                   "run pile --frames out --annotations coco",
                                    "run pile --frames out/a/b --cameras out/a/b/cameras.json --report out/a/b/report.json",
                                    "run pile --frames out --trajectory out/run.npz --export out/run.glb --save out/end.json"}) {
         const Place place;

@@ -110,14 +110,15 @@ TEST_CASE("program: list names the demos, help teaches, the version is told", "[
     for (const char* name : {"\nstack20 ", "\npyramid100 ", "\njenga "}) REQUIRE(says(list.output, name));
     const Outcome help = run_scree("--help");
     REQUIRE(help.status == 0);
-    for (const char* command : {"list", "devices", "run", "compare", "check", "validate", "bench", "export", "Exit status"})
+    for (const char* command :
+         {"list", "devices", "run", "compare", "check", "validate", "bench", "export", "info", "Exit status"})
         REQUIRE(says(help.output, command));
     REQUIRE(says(run_scree("--version").output, "scree "));
 }
 
 TEST_CASE("program: every --help fits into 100 columns and tells each option's default or unit", "[program]") {
     for (const char* command :
-         {"", "list ", "devices ", "run ", "view ", "compare ", "check ", "validate ", "bench ", "export "}) {
+         {"", "list ", "devices ", "run ", "view ", "compare ", "check ", "validate ", "bench ", "export ", "info "}) {
         const Outcome help = run_scree(std::string(command) + "--help");
         REQUIRE(help.status == 0);
         std::istringstream lines(help.output);

@@ -32,6 +32,7 @@ constexpr const char* examples = R"(Examples:
   scree run pile --bodies 10k --steps 300 --report -    a report as JSON
   scree export wall -o wall.json                        a scene as a file, to edit
   scree run wall.json --seconds 5                       and to run
+  scree info robot.urdf                                 degrees of freedom, joints, drives
   scree compare mix --steps 60                          CPU against GPU, bit by bit
   scree check                                           the stability suite
   scree validate --page validation.html                 experiments against theory, with plots
@@ -98,6 +99,7 @@ int run_command_line(int argc, char** argv) {
     add_validate(program, status);
     add_bench(program, status);
     add_export(program, status);
+    add_info(program, status);
     try {
         program.parse(argc, argv);
         if (std::fflush(stdout) != 0) return tell("the output cannot be written", promise_missed);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "compute/distributed/distributed.h"
+#include "demos/film/annotations.h"
 #include "demos/film/pictures.h"
 #include "demos/play/replay.h"
 #include "demos/program/advice/adviser.h"
@@ -454,6 +455,8 @@ int run(RunOptions options) {
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
     require_sense(options.copies, subject);
     require_moments(options, subject);
+    if (options.pictures.annotations == "bop" && subject.viewpoint.orthographic)
+        throw UsageError("--annotations bop: its cameras have a focal length, and the scene's is orthographic");
     options.measured = measures_asked(options.measures, subject.measures, subject.scene);
     const VaryCopy vary = vary_of(options.copies, options.scene);
     if (options.copies.copies) subject.promise.reset();  // it is of the scene alone
@@ -586,7 +589,8 @@ void make_silent(RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command);
-    const OutputFolder frames(options.pictures.frames), vtk(options.measures.vtk);
+    if (!options.pictures.annotations.empty()) options.pictures.legend = options.pictures.caption = false;
+    const OutputFolder frames(folder_of_frames(options.pictures)), vtk(options.measures.vtk);
     require_distinct_outputs(options);
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
@@ -665,6 +669,7 @@ void add_run(CLI::App& program, int& status) {
         "  scree run avalanche --bodies 100k --seconds 60 --checkpoint run.checkpoint --every 5\n"
         "  scree run --resume run.checkpoint --checkpoint run.checkpoint\n"
         "  scree run pile --frames out --channels depth,ids,normals,flow --size 640x480\n"
+        "  scree run clutter.json --frames set --annotations coco --size 640x480\n"
         "  scree run dominoes --trajectory run.npz\n"
         "  scree run wrecking --export wrecking.glb\n"
         "  scree run glass --html glass.html\n"

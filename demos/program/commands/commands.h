@@ -18,6 +18,7 @@ void add_check(CLI::App& program, int& status);
 void add_validate(CLI::App& program, int& status);
 void add_bench(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
+void add_info(CLI::App& program, int& status);
 
 // Runs the command that the arguments of the program name; returns the exit status.
 int run_command_line(int argc, char** argv);

@@ -68,6 +68,7 @@ struct PictureOptions {
     bool overwrite = false;                   // frames of an earlier run in the folder are removed
     std::string cameras;                      // JSON file of each picture's camera; may be empty
     std::vector<std::string> channels;        // depth, ids, parts, normals, flow (demos/film/channels.h)
+    std::string annotations;                  // coco, bop (demos/film/annotations.h); may be empty
     std::string channel_files = "both";       // npy, png or both
     std::string canvas = "auto";              // auto, vulkan or gl
     int width = 1280, height = 720;

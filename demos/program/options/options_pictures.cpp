@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "compute/scene_file/hex_color.h"
+#include "demos/film/annotations.h"
 #include "demos/film/channels.h"
 #include "demos/film/style.h"
 #include "demos/program/exit_status.h"
@@ -187,6 +188,14 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
         ->check(one_of({"npy", "png", "both"}))
         ->group(group);
     command
+        .add_option(
+            "--annotations", options.annotations,
+            "Labels of each frame of dynamic bodies, exact at pixel centres, to train with: coco (boxes, masks, areas and "
+            "visibility in annotations.json beside the frames), or bop (a data set with poses, models, depth and masks; "
+            "frames are train/000000/rgb/000000.png). Frames have neither legend nor caption then; needs --frames.")
+        ->check(one_of(annotation_words()))
+        ->group(group);
+    command
         .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
                                           "Picture size in pixels, WIDTHxHEIGHT. Default: 1280x720.")
         ->group(group);
@@ -218,12 +227,26 @@ static bool is_of_pages(const std::string& option) {
     return false;
 }
 
+// What frames of BOP are not.
+static void require_bop(const PictureOptions& options) {
+    const auto refuse = [](const char* option, const char* reason) {
+        throw UsageError(fmt::format("--annotations bop: not with {}: {}", option, reason));
+    };
+    if (options.frame_files == "exr") refuse("--frame-files exr", "its frames are PNG files");
+    if (options.bits == 16) refuse("--png-depth 16", "its frames have 8 bits");
+    if (options.background == "none") refuse("--background none", "its frames have no transparency");
+    if (options.camera.orthographic) refuse("--orthographic", "its cameras have a focal length");
+    if (!options.channels.empty()) refuse("--channels", "it has depth and masks itself; run again for others");
+}
+
 void PictureOptions::require_sense(const CLI::App& command) const {
     for (const char* option : {"--frames", "--video", "--preview", "--raw", "--html", "--cameras", "--report"}) {
         for (const std::string& name : command.get_option(option)->results())
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
     if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
+    if (!annotations.empty() && frames.empty()) throw UsageError("--annotations: are files beside frames; add --frames DIR");
+    if (annotations == "bop") require_bop(*this);
     if (frames.empty() && overwrite) throw UsageError("--overwrite: no frames are asked for; add --frames DIR");
     if (frames.empty() && command.count("--frame-files") != 0)
         throw UsageError("--frame-files: no frames are asked for; add --frames DIR");
