@@ -186,6 +186,8 @@ struct Statistics {
     std::size_t joints_broken = 0;
     double joint_force_max = 0;    // greatest force of any joint in any step so far (mean over a step), N
     double joint_torque_max = 0;   // N m
+    std::size_t bonds = 0;         // between bodies
+    std::size_t bonds_broken = 0;
     std::size_t below_ground = 0;  // dynamic bodies whose centre is behind a plane of the scene
 };
 
