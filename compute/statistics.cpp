@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
+#include <span>
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/tables/memory_order.h"

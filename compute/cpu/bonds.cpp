@@ -8,7 +8,7 @@ namespace scree::reference {
 
 namespace {
 
-void write_change(State& state, std::size_t place, const physics::Velocity& change, float holds) {
+void write_bond_change(State& state, std::size_t place, const physics::Velocity& change, float holds) {
     float* const words = &state.bond_changes[physics::BOND_WORDS * place];
     for (int k = 0; k < 3; ++k) {
         words[k] = change.linear[k];
@@ -17,7 +17,7 @@ void write_change(State& state, std::size_t place, const physics::Velocity& chan
     words[6] = holds;
 }
 
-void pull(State& state, std::size_t i) {
+void pull_bond(State& state, std::size_t i) {
     const physics::Bond& bond = state.bonds[i];
     physics::VelocityPair change{};
     bool holds = state.bond_states[i] == 0;
@@ -32,11 +32,11 @@ void pull(State& state, std::size_t i) {
         else
             state.bond_states[i] = 1;
     }
-    write_change(state, bond.place_a, change.a, holds ? 1.0f : 0.0f);
-    write_change(state, bond.place_b, change.b, holds ? 1.0f : 0.0f);
+    write_bond_change(state, bond.place_a, change.a, holds ? 1.0f : 0.0f);
+    write_bond_change(state, bond.place_b, change.b, holds ? 1.0f : 0.0f);
 }
 
-void take(State& state, std::uint32_t row) {
+void take_changes(State& state, std::uint32_t row) {
     const std::uint32_t id = state.id_of(row);
     if (id >= state.fixed().bonded) return;
     const std::uint32_t first = id > 0 ? state.bond_ends[id - 1] : 0, last = state.bond_ends[id];
@@ -59,13 +59,13 @@ void take(State& state, std::uint32_t row) {
 
 void pull_bonds(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
-    threads.for_each(state.fixed().bonds, [&](std::size_t i) { pull(state, i); });
+    threads.for_each(state.fixed().bonds, [&](std::size_t i) { pull_bond(state, i); });
 }
 
 void take_bonds(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::vector<std::uint32_t>& bodies = state.scratch.movable_bodies;
-    threads.for_each(bodies.size(), [&](std::size_t k) { take(state, bodies[k]); });
+    threads.for_each(bodies.size(), [&](std::size_t k) { take_changes(state, bodies[k]); });
 }
 
 }  // namespace scree::reference

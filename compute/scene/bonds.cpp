@@ -21,19 +21,19 @@ namespace scree {
 
 namespace {
 
-bool is_called(const std::string& name, const std::string& wanted) {
+bool is_called_by(const std::string& name, const std::string& wanted) {
     if (wanted.empty() || name == wanted) return true;
     return name.size() > wanted.size() + 1 && name.starts_with(wanted) && name[wanted.size()] == ' ' &&
            std::all_of(name.begin() + static_cast<std::ptrdiff_t>(wanted.size()) + 1, name.end(),
                        [](char c) { return c >= '0' && c <= '9'; });
 }
 
-struct Ball {
+struct NearBall {
     std::size_t body;
     glm::dvec3 centre;
     double radius;
 };
-using Cell = std::array<std::int64_t, 3>;
+using BallCell = std::array<std::int64_t, 3>;
 
 }  // namespace
 
@@ -55,12 +55,12 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
     }
     const std::vector<Body>& bodies = balls_only ? scene.bodies : proper.bodies;
     const std::string &first = bonding.bodies, &second = bonding.with.empty() ? bonding.bodies : bonding.with;
-    std::vector<Ball> balls;
+    std::vector<NearBall> balls;
     std::vector<std::uint8_t> groups;
     bool any_first = false, any_second = false;
     double widest = 0;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const bool in_first = is_called(bodies[i].name, first), in_second = is_called(bodies[i].name, second);
+        const bool in_first = is_called_by(bodies[i].name, first), in_second = is_called_by(bodies[i].name, second);
         any_first |= in_first;
         any_second |= in_second;
         const double radius = in_first || in_second ? radius_as_ball(bodies[i]) : 0;
@@ -73,10 +73,10 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
     if (!any_second) throw SceneError(place + "/with", "no body is called \"" + second + "\" or \"" + second + " 0\"");
     const double width = (2 + static_cast<double>(bonding.gap)) * widest * 1.000001;
     const auto cell_of = [&](const glm::dvec3& at) {
-        return Cell{static_cast<std::int64_t>(std::floor(at.x / width)), static_cast<std::int64_t>(std::floor(at.y / width)),
+        return BallCell{static_cast<std::int64_t>(std::floor(at.x / width)), static_cast<std::int64_t>(std::floor(at.y / width)),
                     static_cast<std::int64_t>(std::floor(at.z / width))};
     };
-    std::map<Cell, std::vector<std::size_t>> cells;
+    std::map<BallCell, std::vector<std::size_t>> cells;
     std::set<std::pair<std::size_t, std::size_t>> bonded;
     for (const Bond& one : scene.bonds) bonded.insert(std::minmax(one.a, one.b));
     for (std::size_t i = 0; i < balls.size(); ++i) {
@@ -88,8 +88,8 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
     const std::size_t before = scene.bonds.size();
     std::vector<std::size_t> near;
     for (std::size_t i = 0; i < balls.size(); ++i) {
-        const Ball& a = balls[i];
-        const Cell cell = cell_of(a.centre);
+        const NearBall& a = balls[i];
+        const BallCell cell = cell_of(a.centre);
         near.clear();
         for (int x = -1; x <= 1; ++x)
             for (int y = -1; y <= 1; ++y)
@@ -99,7 +99,7 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
                             if (k > i) near.push_back(k);
         std::sort(near.begin(), near.end());
         for (const std::size_t k : near) {
-            const Ball& b = balls[k];
+            const NearBall& b = balls[k];
             const bool wanted = ((groups[i] & 1) && (groups[k] & 2)) || ((groups[i] & 2) && (groups[k] & 1));
             const double least = std::min(a.radius, b.radius), reach = a.radius + b.radius + static_cast<double>(bonding.gap) * least;
             const glm::dvec3 apart = b.centre - a.centre;

@@ -16,7 +16,7 @@ namespace scree {
 
 namespace {
 
-double volume_of(const Body& body) {
+double solid_volume_of(const Body& body) {
     const auto* compound = std::get_if<Compound>(&body.shape);
     if (!compound) return static_cast<double>(mass_properties(body.shape, 1).mass);
     Compound even = *compound;
@@ -24,7 +24,7 @@ double volume_of(const Body& body) {
     return mass_of(even, 1).mass;
 }
 
-void place(const Examination& at, Bond& bond, const Scene& scene) {
+void place_bond(const Examination& at, Bond& bond, const Scene& scene) {
     const Body &a = scene.bodies[bond.a], &b = scene.bodies[bond.b];
     const double radius_a = radius_as_ball(a), radius_b = radius_as_ball(b);
     if (!(radius_a > 0) || !(radius_b > 0))
@@ -45,7 +45,7 @@ void place(const Examination& at, Bond& bond, const Scene& scene) {
 
 double radius_as_ball(const Body& body) {
     if (const auto* ball = std::get_if<Sphere>(&body.shape)) return static_cast<double>(ball->radius);
-    const double volume = volume_of(body);
+    const double volume = solid_volume_of(body);
     return volume > 0 ? portable::cbrt(3 * volume / (4 * std::numbers::pi)) : 0;
 }
 
@@ -60,9 +60,9 @@ void check_bonds(Scene& scene) {
         if (bond.a == bond.b) at.refuse("/b", "body " + std::to_string(bond.a) + " is bonded to itself; name another");
         if (scene.bodies[bond.a].motion != Motion::dynamic && scene.bodies[bond.b].motion != Motion::dynamic)
             at.refuse("", "bonds two bodies that never move; at least one of a and b must be a dynamic body");
-        if (!(bond.radius > 0)) at.refuse("/radius", "must be above 0, is " + schema::text_of(bond.radius));
+        if (!(bond.radius > 0)) at.refuse("/radius", "must be above 0, is " + text_of(bond.radius));
         schema::check_fields(at, bond);
-        if (bond.length == 0) place(at, bond, scene);
+        if (bond.length == 0) place_bond(at, bond, scene);
     }
 }
 

@@ -38,11 +38,11 @@ class EventKind(IntEnum):
     hit = 2  # they pressed on each other faster than hit_speed
     body_broke = 3
     joint_broke = 4
-    bond_broke = 9
     fell_asleep = 5
     woke = 6
     sensor_begin = 7  # b began to overlap the sensor a
     sensor_end = 8
+    bond_broke = 9
 
 
 class DebugDrawing(typing.NamedTuple):
