@@ -7,8 +7,8 @@
 #include <span>
 
 #include "compute/plan/plan.h"
-#include "shaders/physics/bond/bond.h"
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/bond/bond.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/sleep/sleep.h"
 

@@ -74,7 +74,7 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
     const double width = (2 + static_cast<double>(bonding.gap)) * widest * 1.000001;
     const auto cell_of = [&](const glm::dvec3& at) {
         return BallCell{static_cast<std::int64_t>(std::floor(at.x / width)), static_cast<std::int64_t>(std::floor(at.y / width)),
-                    static_cast<std::int64_t>(std::floor(at.z / width))};
+                        static_cast<std::int64_t>(std::floor(at.z / width))};
     };
     std::map<BallCell, std::vector<std::size_t>> cells;
     std::set<std::pair<std::size_t, std::size_t>> bonded;
@@ -101,7 +101,8 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
         for (const std::size_t k : near) {
             const NearBall& b = balls[k];
             const bool wanted = ((groups[i] & 1) && (groups[k] & 2)) || ((groups[i] & 2) && (groups[k] & 1));
-            const double least = std::min(a.radius, b.radius), reach = a.radius + b.radius + static_cast<double>(bonding.gap) * least;
+            const double least = std::min(a.radius, b.radius),
+                         reach = a.radius + b.radius + static_cast<double>(bonding.gap) * least;
             const glm::dvec3 apart = b.centre - a.centre;
             const double squared = glm::dot(apart, apart);
             const bool moves = bodies[a.body].motion == Motion::dynamic || bodies[b.body].motion == Motion::dynamic;

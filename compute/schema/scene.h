@@ -66,7 +66,6 @@ inline constexpr auto table<Scene> = table_of(
     field("bodies", &Scene::bodies, "The bodies; joints and vehicles refer to them by index, from 0, or name").required(),
     field("joints", &Scene::joints, "The joints"), field("vehicles", &Scene::vehicles, "The vehicles"),
     field("exclusions", &Scene::exclusions, "Pairs of bodies that never collide"),
-    field("fields", &Scene::fields, "Wind, water, attractors"),
-    field("bond_pairs", &Scene::bonds, "Bonds of two bodies each"));
+    field("fields", &Scene::fields, "Wind, water, attractors"), field("bond_pairs", &Scene::bonds, "Bonds of two bodies each"));
 
 }  // namespace scree::schema

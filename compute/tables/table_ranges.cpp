@@ -76,7 +76,8 @@ TableRanges joint_ranges(const State& state) {
 }
 
 TableRanges joint_structure_ranges(const State& state) {
-    TableRanges ranges{{Table::bonds, 0, state.bonds.size()}};
+    TableRanges ranges;
+    if (!state.bonds.empty()) ranges.push_back({Table::bonds, 0, state.bonds.size()});
     if (state.has_joints())
         append(ranges,
                {{Table::joint_blocks, 0, state.joint_blocks.size()}, {Table::block_bodies, 0, state.block_bodies.size()}});
@@ -84,6 +85,7 @@ TableRanges joint_structure_ranges(const State& state) {
 }
 
 TableRanges bond_ranges(const State& state) {
+    if (state.bonds.empty()) return {};
     return {{Table::bond_states, 0, state.bonds.size()}};
 }
 

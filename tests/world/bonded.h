@@ -11,9 +11,8 @@ inline Scene bonded_block(int side, const Bonding& bonding, vec3 at = {0, 0.3f, 
     Scene scene;
     scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
     for (int i = 0; i < side * side * side; ++i)
-        scene.bodies.push_back({.shape = Sphere{0.1f},
-                                .position = at + 0.2f * vec3(i % side, i / side % side, i / (side * side)),
-                                .density = 1000});
+        scene.bodies.push_back(
+            {.shape = Sphere{0.1f}, .position = at + 0.2f * vec3(i % side, i / side % side, i / (side * side)), .density = 1000});
     add_bonds(scene, bonding);
     return scene;
 }

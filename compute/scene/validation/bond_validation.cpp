@@ -55,8 +55,8 @@ void check_bonds(Scene& scene) {
         const Examination at("bond_pairs", "bond", i, "");
         for (const auto& [key, body] : {std::pair{"/a", bond.a}, std::pair{"/b", bond.b}})
             if (body >= scene.bodies.size())
-                at.refuse(key, "there is no body " + std::to_string(body) + "; the scene has " +
-                                   std::to_string(scene.bodies.size()));
+                at.refuse(key,
+                          "there is no body " + std::to_string(body) + "; the scene has " + std::to_string(scene.bodies.size()));
         if (bond.a == bond.b) at.refuse("/b", "body " + std::to_string(bond.a) + " is bonded to itself; name another");
         if (scene.bodies[bond.a].motion != Motion::dynamic && scene.bodies[bond.b].motion != Motion::dynamic)
             at.refuse("", "bonds two bodies that never move; at least one of a and b must be a dynamic body");

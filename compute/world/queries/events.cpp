@@ -339,8 +339,9 @@ void Events::compare_bonds(const Seen& seen) {
     for (std::size_t i = 0; i < bonds_.size(); ++i) {
         if (seen.state.bond_states[i] == 0 || std::exchange(bonds_[i], std::uint8_t{1}) != 0) continue;
         const Bond& bond = seen.scene.bonds[i];
-        Event event = event_of(EventKind::bond_broke, {static_cast<std::uint32_t>(bond.a), static_cast<std::uint32_t>(bond.b), 0, 0},
-                               seen.generations, seen.step);
+        Event event =
+            event_of(EventKind::bond_broke, {static_cast<std::uint32_t>(bond.a), static_cast<std::uint32_t>(bond.b), 0, 0},
+                     seen.generations, seen.step);
         event.joint = static_cast<std::uint32_t>(i);
         events_.push_back(event);
     }

@@ -32,7 +32,8 @@ LAW BondRate rate_of_bond(float stiffness, float ease, float damping, Parameters
     float most = (STIFFEST_BOND * mass) * (parameters.inverse_h * parameters.inverse_h);
     BondRate rate;
     rate.spring = choose(stiffness > 0.0f, smaller(stiffness, most), most);
-    rate.damper = smaller((2.0f * damping) * mass * square_root(rate.spring * ease), (MOST_DAMPED_BOND * mass) * parameters.inverse_h);
+    rate.damper =
+        smaller((2.0f * damping) * mass * square_root(rate.spring * ease), (MOST_DAMPED_BOND * mass) * parameters.inverse_h);
     return rate;
 }
 
@@ -81,7 +82,8 @@ LAW BondPull pull_of_bond(Bond bond, Pose pose_a, Pose pose_b, VelocityPair v, M
     vec3 bending = (turned - along * turned_along) * bend.spring + (spin - along * spin_along) * bend.damper;
 
     BondPull pull;
-    float per_area = (0.31830989f * bond.inverse_radius) * bond.inverse_radius, per_moment = 4.0f * per_area * bond.inverse_radius;
+    float per_area = (0.31830989f * bond.inverse_radius) * bond.inverse_radius,
+          per_moment = 4.0f * per_area * bond.inverse_radius;
     pull.tension = tension * per_area + length3(bending) * per_moment;
     pull.shear = length3(across) * per_area + abs(torsion) * (0.5f * per_moment);
     Wrench on_b;

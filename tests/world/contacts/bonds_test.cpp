@@ -136,7 +136,8 @@ TEST_CASE("no stiffness and damping make bonded bodies gain energy") {
         }
 }
 
-TEST_CASE("bonds have the same bits in lanes, on threads, in copies and through checkpoints, and tell when they break", "[world]") {
+TEST_CASE("bonds have the same bits in lanes, on threads, in copies and through checkpoints, and tell when they break",
+          "[world]") {
     const Scene scene = tests::falling_blocks();
     World plain(scene, {}, std::make_unique<ReferenceRunner>(1, 1));
     plain.set_events({.breaks = true});
@@ -214,11 +215,10 @@ TEST_CASE("a body that is removed leaves its bonds, and ranks refuse bonds") {
     world.step(5);
     CHECK(world.statistics().bonds_broken == 3);
     CHECK(world.snapshot().bonds.size() == scene.bonds.size() - 3);
-    CHECK_THROWS_WITH(run_in_process(1,
-                                     [&](const std::shared_ptr<Exchange>& exchange) {
-                                         World(scene, {}, make_distributed_runner(exchange));
-                                     }),
-                      Catch::Contains("a world with bonds runs on one rank"));
+    CHECK_THROWS_WITH(
+        run_in_process(1,
+                       [&](const std::shared_ptr<Exchange>& exchange) { World(scene, {}, make_distributed_runner(exchange)); }),
+        Catch::Contains("a world with bonds runs on one rank"));
     CHECK(plan(4, {}).size() + 8 == [] {
         SceneFeatures features;
         features.bonds = true;
