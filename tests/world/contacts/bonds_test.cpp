@@ -69,18 +69,20 @@ TEST_CASE("a bond holds below its strength times its area, and breaks above, in 
 TEST_CASE("a bonded cantilever sags as a beam does, within 5%") {
     // Balls that do not touch, in a row from one that is fixed: a beam of the bonds' section under its weight.
     constexpr int count = 11;
-    constexpr float spacing = 0.21f, radius = 0.1f, modulus = 2e6f;
+    constexpr float spacing = 0.21f, radius = 0.1f, modulus = 2e4f, gravity = 0.1f;
     Scene scene;
+    scene.gravity = {0, -gravity, 0};  // with more the beam would have to be stiffer than a substep allows
     for (int i = 0; i < count; ++i)
         scene.bodies.push_back({.motion = i == 0 ? Motion::fixed : Motion::dynamic,
                                 .shape = Sphere{radius},
                                 .position = {spacing * static_cast<float>(i), 0, 0},
-                                .density = 20});
-    add_bonds(scene, {.stiffness = modulus, .damping = 2});
+                                .density = 20,
+                                .linear_damping = 3});
+    add_bonds(scene, {.gap = 0.2f, .stiffness = modulus});
     World world(scene);
     world.step(600);
     // Weights at the balls, hinges with springs E I / spacing half way between, and shear.
-    const double weight = static_cast<double>(mass_properties(scene.bodies[1]).mass) * 9.81;
+    const double weight = static_cast<double>(mass_properties(scene.bodies[1]).mass) * static_cast<double>(gravity);
     const double area = std::numbers::pi * 0.01, inertia = std::numbers::pi * 1e-4 / 4, step = static_cast<double>(spacing);
     double sag = 0;
     const double end = step * (count - 1);
@@ -122,7 +124,7 @@ TEST_CASE("bonded bodies keep momentum and spin to 1e-5") {
 TEST_CASE("no stiffness and damping make bonded bodies gain energy") {
     for (const float stiffness : {0.0f, 1e6f, 1e15f})
         for (const float damping : {0.0f, 0.5f, 10.0f}) {
-            Scene scene = tests::bonded_block(4, {.gap = 1.0f, .stiffness = stiffness, .damping = damping});
+            Scene scene = tests::bonded_block(3, {.gap = 1.0f, .stiffness = stiffness, .damping = damping});
             CAPTURE(stiffness, damping);
             World world(scene);
             const double before = world.statistics().potential_energy;
