@@ -90,6 +90,10 @@ LAW BondPull pull_of_bond(Bond bond, Pose pose_a, Pose pose_b, VelocityPair v, M
     on_b.push = (along * tension + across) * -parameters.h;
     on_b.moment = (along * torsion + bending) * -parameters.h;
     pull.change = changes_by(on_b, arms, a, b);
+    pull.change.a.linear = flush_tiny(pull.change.a.linear);  // processors give zeros different signs
+    pull.change.a.angular = flush_tiny(pull.change.a.angular);
+    pull.change.b.linear = flush_tiny(pull.change.b.linear);
+    pull.change.b.angular = flush_tiny(pull.change.b.angular);
     return pull;
 }
 LAW bool bond_breaks(BondPull pull, Bond bond) {
