@@ -70,10 +70,10 @@
     X(26, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
     X(26, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
     X(26, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
-    X(26, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
-    X(26, copy_states, WordsTable, uint, copies) /* COPY_* of this step */                                                    \
-    X(26, bond_states, WordsTable, uint, bonds)  /* 1: broken */                                                              \
-    X(26, bond_ends, WordsTable, uint, bond_ends) /* by id: end of each body's changes in bond_changes */                     \
+    X(26, births, WordsTable, uint, copies)              /* step in which each copy began anew: copies.h */                   \
+    X(26, copy_states, WordsTable, uint, copies)         /* COPY_* of this step */                                            \
+    X(26, bond_states, WordsTable, uint, bonds)          /* 1: broken */                                                      \
+    X(26, bond_ends, WordsTable, uint, bond_ends)        /* by id: end of each body's changes in bond_changes */              \
     X(26, bond_changes, WordsTable, float, bond_changes) /* of each side of a bond: BOND_WORDS */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
