@@ -28,12 +28,13 @@ enum class EventKind : std::uint8_t {
     woke,          // a
     sensor_begin,  // a: a sensor, part_a: its part; b, part_b: what began to overlap it in the step
     sensor_end,    // they overlap no more; or one of them is gone
+    bond_broke,    // joint: the index of the bond; a and b: its bodies
 };
 
 struct EventSettings {
     bool contacts = false;    // begin and end
     float hit_speed = 1e30f;  // m/s, least approach speed of a hit, >= 0; needs contacts
-    bool breaks = false;      // body_broke and joint_broke
+    bool breaks = false;      // body_broke, joint_broke and bond_broke
     bool sleep = false;       // fell_asleep and woke
     bool sensors = false;     // sensor_begin and sensor_end
     bool any() const { return contacts || breaks || sleep || sensors; }

@@ -268,6 +268,23 @@ struct Exclusion {
     bool operator==(const Exclusion& o) const { return a == o.a && b == o.b; }
 };
 
+// Cement between two bodies: a round beam that resists stretch, shear, bending and twist, until a stress at its edge exceeds a
+// strength (Potyondy, Cundall, 2004). The bodies still collide, and do not sleep while it holds. compute/bonds.h makes many.
+struct Bond {
+    std::size_t a = 0, b = 0;  // bodies; different, and at least one dynamic
+    float radius = 0;          // m, of its section
+    // Young's modulus, Pa; 0, and more than a substep allows: as stiff as the substep allows.
+    float stiffness = 0;
+    float damping = 0.5f;       // ratio, 0 to 10, as far as the substep allows
+    float tension = unlimited;  // strengths, Pa
+    float shear = unlimited;
+    bool broken = false;
+    // Its length, m; 0: the bond is placed when the scene is checked: on the line between the centres of mass, without stress.
+    float length = 0;
+    vec3 anchor_a{0}, anchor_b{0};                  // in the body's frame, from its centre of mass, m
+    vec4 frame_a{0, 0, 0, 1}, frame_b{0, 0, 0, 1};  // bond to body, x along the bond
+};
+
 // ---- fields, which act on all dynamic bodies that are awake
 struct Wind {
     vec3 velocity{0};      // m/s
@@ -301,6 +318,7 @@ struct Scene {
     std::vector<Vehicle> vehicles{};
     std::vector<Exclusion> exclusions{};
     Fields fields{};
+    std::vector<Bond> bonds{};
 };
 
 // A joint of two bodies of the scene (or the world) at their present poses, from anchor and x axis in world

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
+#include <span>
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/tables/memory_order.h"
@@ -213,6 +214,9 @@ Statistics statistics_of(const Scene& scene, const State& state, const ContactSu
     s.spin_limited = state.counted().spin_limited;
     add_contacts(contacts, s);
     add_joints(state, begin * joints, joints, s);
+    s.bonds = state.bond_states.size() / (copy ? copies : 1);
+    const std::span broken = std::span(state.bond_states).subspan(begin * s.bonds, s.bonds);
+    s.bonds_broken = static_cast<std::size_t>(std::count(broken.begin(), broken.end(), 1u));
     return s;
 }
 

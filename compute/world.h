@@ -184,8 +184,10 @@ struct Statistics {
     std::size_t not_finite = 0;              // bodies in quarantine
     std::size_t joints = 0;                  // of every kind
     std::size_t joints_broken = 0;
-    double joint_force_max = 0;    // greatest force of any joint in any step so far (mean over a step), N
-    double joint_torque_max = 0;   // N m
+    double joint_force_max = 0;   // greatest force of any joint in any step so far (mean over a step), N
+    double joint_torque_max = 0;  // N m
+    std::size_t bonds = 0;        // between bodies
+    std::size_t bonds_broken = 0;
     std::size_t below_ground = 0;  // dynamic bodies whose centre is behind a plane of the scene
 };
 

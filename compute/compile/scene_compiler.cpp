@@ -116,6 +116,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.most_groups = 65535;  // of any device; a runner may have more
     filter(scene);
     set_fields(scene);
+    bond(scene);
     state_.allocate();
     for (std::uint32_t i = 0; i < n; ++i) {
         state_.poses[i] = start_of(scene.bodies[i]);

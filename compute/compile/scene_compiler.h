@@ -67,6 +67,9 @@ public:
     // filter_records.cpp: the tables of filters and exclusions, empty if the scene has none.
     void filter(const Scene& scene);
 
+    // bond_records.cpp: the tables of bonds, empty if the scene has none.
+    void bond(const Scene& scene);
+
 private:
     physics::BodyProperties form_of(const SimpleShape& shape);
     physics::BodyProperties form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);

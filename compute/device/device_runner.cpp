@@ -261,6 +261,9 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
         case DispatchDomain::vehicles:
             direct(physics::work_for(p.vehicles, p));
             break;
+        case DispatchDomain::bonds:
+            direct(physics::work_for(p.bonds, p));
+            break;
     }
 }
 

@@ -34,6 +34,8 @@ RowMover::Tables DeviceRunner::tables_to_move() const {
     follow(Table::joints, joint_records(), offsetof(physics::Joint, a));
     follow(Table::joints, joint_records(), offsetof(physics::Joint, b));
     follow(Table::block_bodies, joint_records() > 0 ? state_->block_bodies.size() : 0, offsetof(physics::BlockBody, body));
+    follow(Table::bonds, state_->bonds.size(), offsetof(physics::Bond, a));
+    follow(Table::bonds, state_->bonds.size(), offsetof(physics::Bond, b));
     const std::size_t vehicles = state_->fixed().vehicles;
     follow(Table::vehicles, vehicles, offsetof(physics::Vehicle, dynamics) + offsetof(physics::VehicleDynamics, chassis));
     for (std::size_t k = 0; k < physics::MOST_WHEELS; ++k)

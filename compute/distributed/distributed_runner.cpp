@@ -39,6 +39,7 @@ std::string DistributedRunner::device() const {
 
 void DistributedRunner::attach(State& state) {
     if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
+    if (!state.bonds.empty()) throw std::invalid_argument("a world with bonds runs on one rank; leave out --distributed");
     state_ = &state;
     device_.attach(state);
     adapt();

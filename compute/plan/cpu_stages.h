@@ -73,6 +73,10 @@ SCREE_STAGE(apply_fields);
 SCREE_STAGE(prepare_cohesion);
 SCREE_STAGE(apply_cohesion);
 
+// bonds.cpp
+SCREE_STAGE(pull_bonds);
+SCREE_STAGE(take_bonds);
+
 // vehicles.cpp
 SCREE_STAGE(drive_vehicles);
 

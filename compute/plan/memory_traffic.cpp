@@ -8,6 +8,7 @@
 
 #include "compute/plan/plan.h"
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/bond/bond.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/sleep/sleep.h"
 
@@ -20,7 +21,7 @@ constexpr double line = 32;  // least bytes per access: a sector of a GPU's cach
 // Counts of the last step.
 struct Step {
     std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, pair_types = 0, pairs = 0, contacts = 0, solver_contacts = 0,
-                slots = 0, joints = 0, vehicles = 0;
+                slots = 0, joints = 0, vehicles = 0, bonds = 0;
     std::size_t actions = 0, ccd_pairs = 0, stirred = 0, breakable = 0;
     bool bounces = false;
     std::vector<std::size_t> of_pair_type, hulls_of_pair_type;
@@ -38,6 +39,7 @@ struct Step {
         actions = state.fixed().actions;
         joints = state.has_joints() ? state.joints.size() : 0;
         vehicles = state.fixed().vehicles;
+        bonds = state.fixed().bonds;
         ccd_pairs = c.arguments[physics::WORK_CCD_PAIRS].x ? pairs : 0;
         stirred = c.sleepers ? contacts : 0;
         breakable = state.has_fractures() ? solver_contacts : 0;
@@ -118,6 +120,10 @@ struct Step {
                 return stirred;
             case Amount::stirred_bodies:
                 return std::min(2 * stirred, bodies);
+            case Amount::bonds:
+                return bonds;
+            case Amount::bond_changes:
+                return 2 * physics::BOND_WORDS * bonds;
         }
         return 0;
     }

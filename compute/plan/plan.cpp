@@ -129,6 +129,8 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         const std::uint32_t first = substep == 1 ? physics::PASS_FIRST : 0, last = substep == substeps ? physics::PASS_LAST : 0;
         if (features.cohesion) s.add("apply_cohesion");
         s.add("begin_substep", first | static_cast<std::uint32_t>(substeps - substep) << physics::PASS_FOLLOWING);
+        for (const char* stage : {"pull_bonds", "take_bonds"})
+            if (features.bonds) s.add(stage);
         s.add("solve_contacts");
         if (features.joints) s.add("solve_joints");
         s.add("move_bodies");

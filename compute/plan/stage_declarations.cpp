@@ -198,6 +198,12 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses}, {actions, A::actions}},
         {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_GHOSTS});
+    all.push_back({"pull_bonds", DispatchDomain::bonds, pull_bonds,
+        {{counts}, {bonds, A::bonds}, {bond_states, A::bonds}, {poses, A::bonds}, {velocities, A::bonds}, {masses, A::bonds}, {properties, A::bonds, 1}},
+        {some_only({bond_states}), {bond_changes, A::bond_changes}}});
+    all.push_back({"take_bonds", DispatchDomain::bodies, take_bonds,
+        {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {ids}, {bond_ends, A::bodies}, {bond_changes, A::bond_changes}, {velocities, A::movers}},
+        {{velocities, A::movers}, some_only({sleep_states})}, physics::FEATURE_REORDERED});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {impacts, A::solver_rebounds}, {masses, A::movers}, {velocities, A::movers}, {forces},
          {gravities}, {ids}},

@@ -26,6 +26,7 @@ enum class DispatchDomain {
     bucket_scan_blocks,
     joint_blocks,
     vehicles,
+    bonds,
     pairs,
     pair_blocks,
     pair_type_scan_blocks,
@@ -63,6 +64,8 @@ enum class Amount {
     ccd_bodies,      // their bodies
     stirred,         // contacts if some body sleeps, else none
     stirred_bodies,  // bodies if some sleeps, else none
+    bonds,
+    bond_changes,
 };
 
 // How an access may overlap with other stages, and who may use the result.

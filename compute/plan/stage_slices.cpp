@@ -12,6 +12,8 @@ std::optional<std::uint32_t> items_of(const Stage& stage, const State& state) {
             return state.fixed().joint_blocks;
         case DispatchDomain::vehicles:
             return state.fixed().vehicles;
+        case DispatchDomain::bonds:
+            return state.fixed().bonds;
         case DispatchDomain::pairs:
             return counts.pairs;
         case DispatchDomain::pair_type:

@@ -36,6 +36,10 @@ struct Moved {
         (*this)(pair.a);
         (*this)(pair.b);
     }
+    void operator()(Bond& bond) const {
+        (*this)(bond.a);
+        (*this)(bond.b);
+    }
 };
 static_assert(the_world == no_body);
 
@@ -86,6 +90,7 @@ void require_alike(const Scene& one, const Scene& varied, std::size_t copy) {
     require_count(varied.joints.size(), one.joints.size(), "joints");
     require_count(varied.vehicles.size(), one.vehicles.size(), "vehicles");
     require_count(varied.exclusions.size(), one.exclusions.size(), "exclusions");
+    require_count(varied.bonds.size(), one.bonds.size(), "bonds");
     for (std::size_t i = 0; i < one.bodies.size(); ++i) {
         const std::size_t parts = parts_of(varied.bodies[i]), first = parts_of(one.bodies[i]);
         if (parts != first)
@@ -122,6 +127,7 @@ CopiedScene copied(const Scene& one, std::size_t copies, const std::function<voi
         append_moved(all.joints, next.joints, moved);
         append_moved(all.vehicles, next.vehicles, moved);
         append_moved(all.exclusions, next.exclusions, moved);
+        append_moved(all.bonds, next.bonds, moved);
     }
     const bool alike = std::all_of(made.gravities.begin(), made.gravities.end(), [&](vec3 g) { return g == all.gravity; });
     if (alike) made.gravities.clear();

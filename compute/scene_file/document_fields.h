@@ -5,6 +5,7 @@
 #include "compute/scene_file/measures_fields.h"
 #include "compute/scene_file/picture_style_fields.h"
 #include "compute/scene_file/scene_json.h"
+#include "compute/schema/bonding.h"
 #include "compute/schema/field.h"
 #include "compute/schema/scene.h"
 #include "compute/schema/settings.h"
@@ -51,6 +52,8 @@ inline constexpr auto table<SceneDocument> = table_of(
     field("picture", &SceneDocument::picture, "How pictures show the scene"),
     field("events", &SceneDocument::events, at_least(0), "events", "What happens at given moments of a run"),
     field("grains", &SceneDocument::grains, at_least(0), "grains", "Grains, which follow the bodies when the file is read"),
+    field("bonds", &SceneDocument::bonds, at_least(0), "bonds",
+          "Bonds of all bodies that are near each other, which become bond_pairs when the file is read"),
     field("measures", &SceneDocument::measures, "What a run measures of its grains"));
 
 }  // namespace scree::schema

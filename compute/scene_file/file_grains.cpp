@@ -1,4 +1,4 @@
-// Adding the grains of a scene file to its bodies and events.
+// Adding the grains of a scene file to its bodies and events, and its bonds to its scene.
 #include "compute/scene_file/file_grains.h"
 
 #include <algorithm>
@@ -34,6 +34,18 @@ void add(SceneDocument& document, FileGrains one, const std::string& place, std:
 }
 
 }  // namespace
+
+void add_bonds(SceneDocument& document) {
+    const std::vector<Bonding> all = std::exchange(document.bonds, {});
+    const std::size_t before = document.scene.bonds.size();
+    try {
+        for (std::size_t i = 0; i < all.size(); ++i) add_bonds(document.scene, all[i], "/bonds/" + std::to_string(i));
+    } catch (const SceneError&) {
+        document.scene.bonds.resize(before);
+        document.bonds = all;
+        throw;
+    }
+}
 
 void add_grains(SceneDocument& document, std::vector<std::string>* notes, std::size_t most_bodies) {
     const std::vector<FileGrains> all = std::exchange(document.grains, {});

@@ -111,6 +111,7 @@ SceneDocument scene_from_text(std::string_view text, const std::filesystem::path
             meshes.read(pour->grains, "/events/" + std::to_string(i) + "/action/pour");
     add_grains(document, notes, most_bodies);
     for (std::size_t i = 0; i < document.scene.bodies.size(); ++i) meshes.read(document.scene.bodies[i], i);
+    add_bonds(document);
     if (notes) notes->insert(notes->end(), meshes.remarks().begin(), meshes.remarks().end());
     return document;
 }

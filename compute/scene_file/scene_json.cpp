@@ -85,6 +85,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     read_checked(schema::field_of(&SceneDocument::picture));
     read_checked(schema::field_of(&SceneDocument::events));
     read_field(rest, root, schema::field_of(&SceneDocument::grains), document, named);
+    read_field(rest, root, schema::field_of(&SceneDocument::bonds), document, named);
     read_field(rest, root, schema::field_of(&SceneDocument::measures), document, named);
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
@@ -151,6 +152,7 @@ void read_around(const json& rest, SceneDocument& document) {
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
     read_field(rest, root, schema::field_of(&Scene::vehicles), scene, named);
     read_field(rest, root, schema::field_of(&Scene::exclusions), scene, named);
+    read_field(rest, root, schema::field_of(&Scene::bonds), scene, named);
     read_field(rest, root, schema::field_of(&Scene::fields), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
@@ -160,7 +162,7 @@ bool refers_to_bodies(const json& rest) {
     const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
     const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
     return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events") ||
-           names_any("grains") || names_any("measures");
+           names_any("grains") || names_any("bonds") || names_any("bond_pairs") || names_any("measures");
 }
 
 }  // namespace
@@ -175,6 +177,7 @@ SceneDocument scene_before_grains(std::string_view text, std::size_t most_bodies
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     SceneDocument document = scene_before_grains(text, most_bodies);
     add_grains(document, nullptr, most_bodies);
+    add_bonds(document);
     return document;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compute/bonds.h"
 #include "compute/measures.h"
 #include "compute/scene.h"
 #include "compute/scene_file/events.h"
@@ -57,7 +58,11 @@ struct SceneDocument {
     // Until add_grains(): grains to come. Reading a file has done that.
     std::vector<FileGrains> grains{};
     std::optional<MeasureRequest> measures{};
+    std::vector<Bonding> bonds{};  // likewise, until add_bonds()
 };
+
+// Takes the document's bonds, which bond bodies of its scene. Throws SceneError, its pointer by the index in the list.
+void add_bonds(SceneDocument& document);
 
 // Takes the document's grains: those that are there at the start become bodies behind the others, those that are poured events.
 // Throws SceneError, its pointer by the index in the list, and for more than `most_bodies` bodies. `notes`, if given, receives

@@ -80,6 +80,7 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
     if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
     if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);
     if (!scene.exclusions.empty()) write_list(text << ",\n", "exclusions", scene.exclusions);
+    if (!scene.bonds.empty()) write_list(text << ",\n", "bond_pairs", scene.bonds);
     if (!shown.events.empty()) write_list(text << ",\n", "events", shown.events);
     text << "}\n";
     return text.take();
@@ -99,6 +100,7 @@ std::uint64_t hash_with(const Scene& scene, const std::function<void(const TakeB
     if (others) others(add_body);
     for (const Joint& joint : scene.joints) add(text_of_fields(joint));
     for (const Vehicle& vehicle : scene.vehicles) add(text_of_fields(vehicle));
+    for (const Bond& bond : scene.bonds) add(text_of_fields(bond));
     if (!is_default(scene.fields, Fields{})) add(text_of_fields(scene.fields));
     return XXH64_digest(hash.get());
 }

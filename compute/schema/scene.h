@@ -16,6 +16,23 @@ inline constexpr auto table<Exclusion> =
              field("b", &Exclusion::b, "Another body's index or name").index_of(Refers::to_body).required());
 
 template <>
+inline constexpr auto table<Bond> = table_of(
+    "bond", "Cement between two bodies, which breaks",
+    field("a", &Bond::a, "A body's index or name").index_of(Refers::to_body).required(),
+    field("b", &Bond::b, "Another body's index or name").index_of(Refers::to_body).required(),
+    field("radius", &Bond::radius, above(0, 1e5), "m", "Radius of its section").required(),
+    field("stiffness", &Bond::stiffness, between(0, 1e15), "Pa", "Young's modulus; 0: as stiff as the substep allows"),
+    field("damping", &Bond::damping, between(0, 10), "", "Damping ratio, as far as the substep allows"),
+    field("tension", &Bond::tension, between(0, static_cast<double>(unlimited)), "Pa", "Tensile strength"),
+    field("shear", &Bond::shear, between(0, static_cast<double>(unlimited)), "Pa", "Shear strength"),
+    field("broken", &Bond::broken, "Whether it has broken already"),
+    field("length", &Bond::length, between(0, 1e6), "m", "Left out: it lies between the centres of mass, without stress"),
+    field("anchor_a", &Bond::anchor_a, within(1e6), "m", "With a length: its place from a's centre of mass"),
+    field("anchor_b", &Bond::anchor_b, within(1e6), "m", "With a length: its place from b's centre of mass"),
+    field("frame_a", &Bond::frame_a, "With a length: quaternion, bond to a; x along the bond"),
+    field("frame_b", &Bond::frame_b, "With a length: quaternion, bond to b"));
+
+template <>
 inline constexpr auto table<Wind> =
     table_of("wind", "Air that drags bodies along",
              field("velocity", &Wind::velocity, within(1e3), "m/s", "Velocity of the air").written(),
@@ -49,6 +66,6 @@ inline constexpr auto table<Scene> = table_of(
     field("bodies", &Scene::bodies, "The bodies; joints and vehicles refer to them by index, from 0, or name").required(),
     field("joints", &Scene::joints, "The joints"), field("vehicles", &Scene::vehicles, "The vehicles"),
     field("exclusions", &Scene::exclusions, "Pairs of bodies that never collide"),
-    field("fields", &Scene::fields, "Wind, water, attractors"));
+    field("fields", &Scene::fields, "Wind, water, attractors"), field("bond_pairs", &Scene::bonds, "Bonds of two bodies each"));
 
 }  // namespace scree::schema

@@ -180,6 +180,8 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     for (physics::Joint& joint : joints)
         for (physics::uint* row : {&joint.a, &joint.b}) follow(*row);
     for (physics::BlockBody& member : block_bodies) follow(member.body);
+    for (physics::Bond& bond : bonds)
+        for (physics::uint* row : {&bond.a, &bond.b}) follow(*row);
     for (physics::Vehicle& vehicle : vehicles) {
         follow(vehicle.dynamics.chassis);
         for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);

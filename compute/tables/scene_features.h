@@ -25,6 +25,7 @@ struct SceneFeatures {
     bool gravities = false;  // whose gravity differs
     bool blocks = false;     // there are compounds or meshes: pairs of bodies in several contacts
     bool ghosts = false;     // rows of other ranks are marked (State::marks_foreign)
+    bool bonds = false;      // there are bonds between bodies
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -46,10 +47,11 @@ struct SceneFeatures {
                 .copies = true,
                 .gravities = true,
                 .blocks = true,
-                .ghosts = true};
+                .ghosts = true,
+                .bonds = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 21 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 22 * sizeof(bool));  // everything() names all
 
 }  // namespace scree

@@ -13,6 +13,7 @@
 #include "compute/tables/table_layout.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/body/compound.h"
+#include "shaders/physics/bond/bond.h"
 #include "shaders/physics/contact/material.h"
 #include "shaders/physics/contact/tyre.h"
 
@@ -89,6 +90,12 @@ std::size_t State::allocated(BufferLength length) const {
             return has_copies() ? p.copies : 0;
         case BufferLength::gravities:
             return gravities.size();
+        case BufferLength::bonds:
+            return bonds.size();
+        case BufferLength::bond_ends:
+            return bond_ends.size();
+        case BufferLength::bond_changes:
+            return 2 * physics::BOND_WORDS * bonds.size();
         case BufferLength::actions:
             return action_room;
     }
@@ -139,6 +146,7 @@ SceneFeatures State::features() const {
     found.copies = has_copies();
     found.gravities = !gravities.empty();
     found.ghosts = marks_foreign;
+    found.bonds = fixed().bonds != 0;
     return found;
 }
 

@@ -45,6 +45,9 @@ enum class BufferLength {
     vehicles,
     copies,
     gravities,
+    bonds,
+    bond_ends,
+    bond_changes,
     actions
 };
 

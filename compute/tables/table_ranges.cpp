@@ -76,8 +76,17 @@ TableRanges joint_ranges(const State& state) {
 }
 
 TableRanges joint_structure_ranges(const State& state) {
-    if (!state.has_joints()) return {};
-    return {{Table::joint_blocks, 0, state.joint_blocks.size()}, {Table::block_bodies, 0, state.block_bodies.size()}};
+    TableRanges ranges;
+    if (!state.bonds.empty()) ranges.push_back({Table::bonds, 0, state.bonds.size()});
+    if (state.has_joints())
+        append(ranges,
+               {{Table::joint_blocks, 0, state.joint_blocks.size()}, {Table::block_bodies, 0, state.block_bodies.size()}});
+    return ranges;
+}
+
+TableRanges bond_ranges(const State& state) {
+    if (state.bonds.empty()) return {};
+    return {{Table::bond_states, 0, state.bonds.size()}};
 }
 
 TableRanges vehicle_ranges(const State& state) {
@@ -91,6 +100,7 @@ TableRanges lasting_ranges(const State& state) {
     ranges.push_back(live_range(state, Table::first_contacts));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));
+    append(ranges, bond_ranges(state));
     return ranges;
 }
 

@@ -40,7 +40,8 @@ TableRanges row_ranges(const State& state, std::uint32_t row);
 TableRanges contact_ranges(const State& state);
 TableRanges joint_ranges(const State& state);
 TableRanges vehicle_ranges(const State& state);
-// Of joint blocks, which only edits and reordering change.
+TableRanges bond_ranges(const State& state);  // which are broken
+// Of joint blocks and bonds, which only edits and reordering change.
 TableRanges joint_structure_ranges(const State& state);
 // All lasting data that the host does not know by itself.
 TableRanges lasting_ranges(const State& state);

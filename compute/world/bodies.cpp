@@ -262,6 +262,15 @@ TableRanges World::Impl::free_families_of(const std::vector<std::size_t>& bodies
     return changed;
 }
 
+TableRanges World::Impl::break_bonds_of(const std::vector<std::size_t>& bodies) {
+    if (scene.bonds.empty()) return {};
+    bring(bond_ranges);
+    const auto is_of = [&](std::size_t body) { return std::binary_search(bodies.begin(), bodies.end(), body); };
+    for (std::size_t i = 0; i < scene.bonds.size(); ++i)
+        if (is_of(scene.bonds[i].a) || is_of(scene.bonds[i].b)) state.bond_states[i] = 1;
+    return bond_ranges(state);
+}
+
 void World::Impl::remove(std::vector<std::size_t> bodies) {
     if (bodies.empty()) return;
     std::sort(bodies.begin(), bodies.end());
@@ -289,6 +298,7 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
     append(changed, free_families_of(bodies));
     const std::size_t excluded =
         std::erase_if(scene.exclusions, [&](const Exclusion& e) { return is_gone(e.a) || is_gone(e.b); });
+    append(changed, break_bonds_of(bodies));
     const TableLengths before = TableLengths::of(state);
     if (excluded > 0) append(changed, StateEditor(state).filter(scene));
     state.fixed().removed = 1;

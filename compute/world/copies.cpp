@@ -151,6 +151,9 @@ void World::Impl::reset(std::span<const std::size_t> which) {
         if (!scene.joints.empty()) reset_joints(copy, changed);
         for (std::size_t v = copy * vehicles; v < (copy + 1) * vehicles; ++v) state.vehicles[v] = start.vehicles[v];
         if (vehicles > 0) changed.push_back({Table::vehicles, copy * vehicles, vehicles});
+        const std::size_t bonds = scene.bonds.size() / copies();
+        for (std::size_t i = copy * bonds; i < (copy + 1) * bonds; ++i) state.bond_states[i] = scene.bonds[i].broken;
+        if (bonds > 0) changed.push_back({Table::bond_states, copy * bonds, bonds});
         state.births[copy] = state.counted().steps;
         changed.push_back({Table::births, copy, 1});
         const auto drop = [&](auto& by_body) {
@@ -233,6 +236,7 @@ Statistics World::statistics_of(std::size_t copy) const {
     in.bring(body_ranges);
     in.bring(contact_ranges);
     in.bring(joint_ranges);
+    in.bring(bond_ranges);
     const auto one = static_cast<std::uint32_t>(copy);
     return scree::statistics_of(in.scene, in.state, contact_sums(in.state, one), one);
 }

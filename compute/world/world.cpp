@@ -430,6 +430,7 @@ Statistics World::statistics() const {
     if (local().shared) return local().statistics_of_shares();
     whole().bring(body_ranges);
     whole().bring(joint_ranges);
+    whole().bring(bond_ranges);
     Statistics found = scree::statistics_of(whole().scene, whole().state, whole().all_contact_sums());
     const std::vector<std::uint8_t>& gone = whole().joints_gone;
     const auto removed = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));

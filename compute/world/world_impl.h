@@ -220,6 +220,7 @@ struct World::Impl {
     std::vector<std::vector<Body>> checked_families(std::span<const Body> bodies) const;
     void remove(std::vector<std::size_t> bodies);
     void require_removable(const std::vector<std::size_t>& bodies) const;
+    TableRanges break_bonds_of(const std::vector<std::size_t>& bodies);  // ascending
     TableRanges break_joints_of(const std::vector<std::size_t>& bodies);
     TableRanges free_families_of(const std::vector<std::size_t>& bodies);
     void keep_original(std::size_t body);

@@ -35,7 +35,7 @@ const std::vector<std::pair<std::string, KeysOf>>& described() {
         {"vehicle", &keys_of<Vehicle>},   {"filter", &keys_of<Filter>},        {"material", &keys_of<Material>},
         {"fields", &keys_of<Fields>},     {"fracture", &keys_of<Fracture>},    {"tyre", &keys_of<Tyre>},
         {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>},
-        {"grains", &keys_of<FileGrains>}};
+        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>}};
     return all;
 }
 
@@ -235,6 +235,12 @@ const std::vector<std::pair<std::string, Add>>& additions() {
          }},
         {"events", [](SceneObject& to, const json& value) { return add_event(to.document, value); }},
         {"grains", [](SceneObject& to, const json& value) { return add_grains_of(to.document, value, to.notes); }},
+        {"bonds",
+         [](SceneObject& to, const json& value) {
+             const std::size_t first = to.document.scene.bonds.size();
+             add_bonds(to.document.scene, next_of(to.document.bonds, "bonds", value, to.document.scene));
+             return first;
+         }},
         {"exclusions", [](SceneObject& to, const json& value) { return add_exclusion(to.document.scene, value); }},
         {"cars", [](SceneObject& to, const json& value) { return add_car_of(to.document.scene, value); }},
         {"carts", [](SceneObject& to, const json& value) { return add_cart_of(to.document.scene, value); }}};

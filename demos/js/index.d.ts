@@ -172,7 +172,7 @@ export interface Contact {
   force: number[]; // N
 }
 export interface ScreeEvent {
-  kind: 'begin' | 'end' | 'hit' | 'body_broke' | 'joint_broke' | 'fell_asleep' | 'woke' | 'sensor_begin' | 'sensor_end';
+  kind: 'begin' | 'end' | 'hit' | 'body_broke' | 'joint_broke' | 'fell_asleep' | 'woke' | 'sensor_begin' | 'sensor_end' | 'bond_broke';
   step: number;
   a: number;
   a_generation: number;

@@ -121,6 +121,26 @@ class Grains(unittest.TestCase):
             scene.add_grains(sizes=.1, region=self.region, count=3)
 
 
+class Bonds(unittest.TestCase):
+    def test_bonds_hold_near_bodies_until_they_break(self):
+        scene = scree.Scene(gravity=(0, 0, 0))
+        scene.add(scree.Sphere(.1), [(0, 0, 0), (.2, 0, 0)], name="stone")
+        scene.add_bonds(bodies="stone", tension=1e3)
+        self.assertIn('"bond_pairs"', scene.to_json())
+        world = scree.World(scene, backend="cpu")
+        for force, together in ((20, True), (200, False)):
+            for _ in range(60):
+                world.apply([0, 1], force=[(-force, 0, 0), (force, 0, 0)])
+                world.step()
+            self.assertEqual(world.position[1, 0] - world.position[0, 0] < .21, together)
+        for keys, pointer in (({"tension": -1}, "/bonds/0/tension"), ({"bodies": "sand"}, "/bonds/0/bodies")):
+            with self.assertRaises(scree.SceneError) as raised:
+                scene.add_bonds(**keys)
+            self.assertEqual(raised.exception.pointer, pointer)
+        with self.assertRaises(TypeError):
+            scene.add_bonds(tensoin=1)
+
+
 class Imports(unittest.TestCase):
     def test_a_robot_of_a_urdf_and_one_of_mjcf(self):
         folder = os.path.join(os.environ["SCREE_SOURCE"], "tests", "imports")

@@ -8,6 +8,7 @@
 #include "compute/scene/fracture.h"
 #include "compute/scene/inertial.h"
 #include "compute/scene/validation/body_validation.h"
+#include "compute/scene/validation/bond_validation.h"
 #include "compute/scene/validation/joint_validation.h"
 #include "compute/scene/validation/shape_validation.h"
 #include "compute/scene/validation/vehicle_validation.h"
@@ -123,11 +124,13 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
         const Shift shift = validation.check(scene.bodies[i], i);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
+        if (shift) shift_bonds(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);
     if (notes) note_open_joints(scene, *notes);
     check_vehicles(scene);
     check_exclusions(scene);
+    check_bonds(scene);
     add_pieces(scene);
     return scene;
 }

@@ -56,6 +56,8 @@ void Events::set(const EventSettings& settings, const Scene& scene, const State&
     joints_.clear();
     sensed_.clear();
     if (settings_.breaks) note_joints(scene, state);
+    bonds_.clear();
+    if (settings_.breaks) bonds_.assign(state.bond_states.begin(), state.bond_states.end());
     if (!settings_.any()) return;
     const std::vector<std::uint32_t> none;
     compare_bodies({scene, state, none, 0});  // notes them
@@ -77,6 +79,7 @@ TableRanges Events::needed(const Scene& scene, const State& state) const {
                         {Table::first_contacts, 0, state.fixed().bodies + 1}});
     }
     if (settings_.breaks && may_break(scene)) append(ranges, joint_ranges(state));
+    if (settings_.breaks) append(ranges, bond_ranges(state));
     return ranges;
 }
 
@@ -93,6 +96,7 @@ void Events::after_step(const Scene& scene, const State& state, const std::vecto
     }
     compare_bodies(seen);
     if (settings_.breaks) compare_joints(seen);
+    if (settings_.breaks) compare_bonds(seen);
     if (settings_.sensors) compare_sensors(seen, threads);
     std::sort(events_.begin() + static_cast<std::ptrdiff_t>(first), events_.end(), happens_before);
 }
@@ -330,6 +334,19 @@ void Events::compare_joints(const Seen& seen) {
     }
 }
 
+void Events::compare_bonds(const Seen& seen) {
+    bonds_.resize(seen.state.bond_states.size());
+    for (std::size_t i = 0; i < bonds_.size(); ++i) {
+        if (seen.state.bond_states[i] == 0 || std::exchange(bonds_[i], std::uint8_t{1}) != 0) continue;
+        const Bond& bond = seen.scene.bonds[i];
+        Event event =
+            event_of(EventKind::bond_broke, {static_cast<std::uint32_t>(bond.a), static_cast<std::uint32_t>(bond.b), 0, 0},
+                     seen.generations, seen.step);
+        event.joint = static_cast<std::uint32_t>(i);
+        events_.push_back(event);
+    }
+}
+
 // ---- sensors
 void Events::tell_sensor(EventKind kind, const SensorOverlap& one, const std::vector<std::uint32_t>& generations,
                          std::uint64_t step) {
@@ -367,6 +384,7 @@ void Events::put(ByteWriter& out) const {
     for (const auto& [pair, contacts] : in_order) out.put(pair), out.put(contacts);
     out.put_list(std::span(bodies_));
     out.put_list(std::span(joints_));
+    out.put_list(std::span(bonds_));
     out.put(settings_.any() ? first_part_ : 0u);
 }
 
@@ -388,6 +406,7 @@ void Events::restore(ByteReader& in) {
     }
     bodies_ = in.take_list<std::uint8_t>();
     joints_ = in.take_list<std::uint8_t>();
+    bonds_ = in.take_list<std::uint8_t>();
     first_part_ = in.take<std::uint32_t>();
     part_numbers_.clear();
     arrangement_ = ~std::uint64_t{0};

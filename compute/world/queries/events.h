@@ -64,6 +64,7 @@ private:
     void match(const Seen& seen);
     void compare_bodies(const Seen& seen);
     void compare_joints(const Seen& seen);
+    void compare_bonds(const Seen& seen);
     void compare_sensors(const Seen& seen, const Threads& threads);
     void tell_sensor(EventKind kind, const SensorOverlap& one, const std::vector<std::uint32_t>& generations, std::uint64_t step);
     Pair pair_of(const Entry& entry, const State& state) const;
@@ -82,6 +83,7 @@ private:
     std::vector<physics::Pose> poses_;                           // likewise, if there are sensors
     std::vector<std::uint8_t> bodies_;                           // by id
     std::vector<std::uint8_t> joints_;                           // by joint of the scene: broken
+    std::vector<std::uint8_t> bonds_;                            // broken
     std::vector<SensorOverlap> sensed_;
     std::vector<std::uint32_t> part_numbers_;  // by part row behind the first
     std::uint32_t first_part_ = 0;

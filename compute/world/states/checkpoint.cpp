@@ -28,7 +28,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 9;
+constexpr std::uint32_t format = 10;
 
 struct Head {
     char magic[8];

@@ -14,7 +14,8 @@ namespace scree {
 // clang-format off
 #define SCREE_EDITED_OF_SHAPES(X)                                   \
     X(hulls) X(parts) X(fractures) X(pieces) X(tyres) X(filters)    \
-    X(exclusions) X(surfaces) X(immersions) X(births) X(gravities)
+    X(exclusions) X(surfaces) X(immersions) X(births) X(gravities) \
+    X(bonds) X(bond_states)
 // clang-format on
 
 // Lengths of tables whose records never change, in the scene with which the world was made: edits append to them. Other tables

@@ -73,6 +73,9 @@ Scene World::Impl::snapshot(std::optional<std::size_t> copy) const {
     }
     now.joints = std::move(joints);
     std::erase_if(now.exclusions, [&](Exclusion& pair) { return is_missing(pair.a) || is_missing(pair.b); });
+    bring(bond_ranges);
+    for (std::size_t i = 0; i < now.bonds.size(); ++i) now.bonds[i].broken = state.bond_states[i] != 0;
+    std::erase_if(now.bonds, [&](Bond& bond) { return is_missing(bond.a) || is_missing(bond.b); });
     keep_vehicles(now, place_there, joint_there);
     return now;
 }

@@ -98,6 +98,7 @@ std::uint64_t fingerprint_of(const State& state, std::uint64_t hash_of_rows) {
         state.exclusions);
     if (state.has_joints()) add(state.joints);
     if (state.fixed().vehicles) add(state.vehicles);
+    if (!state.bonds.empty()) add(state.bonds);
     return hash;
 }
 

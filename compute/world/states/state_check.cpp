@@ -40,6 +40,7 @@ public:
         check_fractures();
         check_exclusions();
         check_surfaces();
+        check_bonds();
         for (std::size_t k = 0; k < saved_.parts.size(); ++k)
             require(is_pose(saved_.parts[k].position, saved_.parts[k].orientation), "part", k, "has a pose that is not finite");
     }
@@ -304,6 +305,18 @@ private:
         for (std::size_t row = 0; row < saved_.filters.size(); ++row)
             require(in_or_none(saved_.filters[row].w, saved_.exclusions.size()), "row", row,
                     "has excluded partners that are none");
+    }
+
+    void check_bonds() const {
+        require(p_.bonds == own_.bonds.size() && p_.bonded == own_.bond_ends.size() && saved_.bonds.size() == p_.bonds &&
+                    saved_.bond_states.size() == p_.bonds,
+                "bond", p_.bonds, "is not of the scene");
+        for (std::size_t k = 0; k < saved_.bonds.size(); ++k) {
+            const physics::Bond one = saved_.bonds[k];
+            require(in(one.a, p_.first_part) && in(one.b, p_.first_part) && one.place_a == own_.bonds[k].place_a &&
+                        one.place_b == own_.bonds[k].place_b,
+                    "bond", k, "is of a body that is none");
+        }
     }
 
     void check_surfaces() const {

@@ -2,7 +2,7 @@
 const columns = { position: 3, orientation: 4, velocity: 3, angular_velocity: 3, mass: 1, asleep: 1, exists: 1,
   origin_position: 3, origin_orientation: 4, touch_force: 3 };
 const views = { poses: ['f32'], velocities: ['f32'], ids: ['u32'] };
-const eventKinds = ['begin', 'end', 'hit', 'body_broke', 'joint_broke', 'fell_asleep', 'woke', 'sensor_begin', 'sensor_end'];
+const eventKinds = ['begin', 'end', 'hit', 'body_broke', 'joint_broke', 'fell_asleep', 'woke', 'sensor_begin', 'sensor_end', 'bond_broke'];
 
 // A table of the world without a copy: rows in an order of the world's own. While it is held, bodies cannot be added or removed.
 class View {

@@ -159,6 +159,7 @@ std::string json_of(const RunReport& r) {
           {"broken", s.joints_broken},
           {"greatest_force", s.joint_force_max},
           {"greatest_torque", s.joint_torque_max}}},
+        {"bonds", {{"count", s.bonds}, {"broken", s.bonds_broken}}},
         {"asleep", s.asleep},
         {"not_finite", s.not_finite},
         {"below_ground", s.below_ground},
@@ -209,6 +210,7 @@ std::string summary_of(const RunReport& r) {
     if (s.joints > 0)
         line("joints", fmt::format("{}, {} torn; at most {:.4g} N and {:.4g} N m carried", s.joints, s.joints_broken,
                                    s.joint_force_max, s.joint_torque_max));
+    if (s.bonds > 0) line("bonds", fmt::format("{}, {} broken", s.bonds, s.bonds_broken));
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash",

@@ -173,6 +173,9 @@ class Description:
     def add_grains(self, grains: str) -> int:
         return self._add("grains", grains)
 
+    def add_bonds(self, bonds: str) -> int:
+        return self._add("bonds", bonds)
+
     def add_exclusion(self, a: int, b: int) -> None:
         self._add("exclusions", json.dumps([a, b]))
 

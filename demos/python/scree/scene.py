@@ -213,6 +213,15 @@ class Scene(Bodies[_native.Description]):
         self._native.add_grains(json_text(given, "/grains/0"))
         return np.arange(before, len(self), dtype=np.int64)
 
+    # ---- bonds
+    def add_bonds(self, **keys: Any) -> None:
+        """Bonds bodies that are near each other as they are now, with the keys of "bonds" in a scene file.
+
+        bodies, with: names of bodies or grains; gap, radius: of the smaller radius; tension, shear, stiffness (Pa), damping.
+        """
+        require_keys(keys, _native.keys("bonds"), "bonds")
+        self._native.add_bonds(json_text({key: value for key, value in keys.items() if value is not None}, "/bonds/0"))
+
     # ---- how it is run and shown
     def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:
         """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity, pour.

@@ -42,6 +42,7 @@ class EventKind(IntEnum):
     woke = 6
     sensor_begin = 7  # b began to overlap the sensor a
     sensor_end = 8
+    bond_broke = 9
 
 
 class DebugDrawing(typing.NamedTuple):

@@ -6,6 +6,7 @@
 #define SCREE_PHYSICS_RECORDS_H
 
 #include "shaders/physics/base/body_records.h"
+#include "shaders/physics/base/bond_records.h"
 #include "shaders/physics/base/contact_records.h"
 #include "shaders/physics/base/joint_records.h"
 #include "shaders/physics/base/step_records.h"

@@ -42,7 +42,9 @@ struct Parameters {  // uniform over a step
     uint removed;      // 1: bodies were removed since the last step; sleepers that touched them wake
     uint copies;       // of the scene, at least 1 (copies.h)
     uint most_groups;  // workgroups of a dispatch along one axis
-    uint pad0, pad1, pad2;
+    uint bonds;
+    uint bonded;  // bodies with smaller ids may have bonds
+    uint pad0;
     // Fields (medium.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

@@ -26,7 +26,7 @@ uvec4 read_gravities(uint i) {
 SCREE_READER_PoseInBody(parts, SCREE_QUAD, SCREE_IN_TURN) SCREE_READER_Fracturing(fractures, SCREE_QUAD, SCREE_IN_TURN)
     SCREE_READER_PoseInBody(pieces, SCREE_QUAD, SCREE_IN_TURN) SCREE_READER_Tyre(tyres, SCREE_QUAD, SCREE_IN_TURN)
         SCREE_READER_Surface(surfaces, SCREE_QUAD, SCREE_IN_TURN) SCREE_READER_Immersion(immersions, SCREE_QUAD, SCREE_IN_TURN)
-            SCREE_READER_WayPoint(way_points, SCREE_QUAD, SCREE_IN_TURN)
+            SCREE_READER_WayPoint(way_points, SCREE_QUAD, SCREE_IN_TURN) SCREE_READER_Bond(bonds, SCREE_QUAD, SCREE_IN_TURN)
 
     // The pose of a part in its body.
     PoseInBody part_in(uint row) {

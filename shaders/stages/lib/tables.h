@@ -70,8 +70,11 @@
     X(26, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
     X(26, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
     X(26, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
-    X(26, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
-    X(26, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
+    X(26, births, WordsTable, uint, copies)              /* step in which each copy began anew: copies.h */                   \
+    X(26, copy_states, WordsTable, uint, copies)         /* COPY_* of this step */                                            \
+    X(26, bond_states, WordsTable, uint, bonds)          /* 1: broken */                                                      \
+    X(26, bond_ends, WordsTable, uint, bond_ends)        /* by id: end of each body's changes in bond_changes */              \
+    X(26, bond_changes, WordsTable, float, bond_changes) /* of each side of a bond: BOND_WORDS */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
     X(27, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
@@ -84,7 +87,8 @@
     X(27, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
     X(27, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
     X(27, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
-    X(27, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
+    X(27, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */  \
+    X(27, bonds, QuadsTable, Bond, bonds)                /* between bodies: bond.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \

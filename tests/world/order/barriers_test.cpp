@@ -71,7 +71,7 @@ TEST_CASE("a table lasts from step to step if something reads it before it is wr
                    strains,      hulls,        parts,      fractures,       pieces,          tyres,          surfaces,
                    immersions,   way_points,   filters,    exclusions,      joints,          vehicles,       ids,
                    joint_blocks, block_bodies, actions,    contacts_before, impulses_before, impacts_before, first_contacts,
-                   births,       gravities});
+                   births,       gravities,    bonds,      bond_states,     bond_ends});
 }
 
 TEST_CASE("tables in one memory take turns: none is read after another has been written there") {
