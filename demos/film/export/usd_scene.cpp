@@ -69,7 +69,6 @@ private:
     }
     std::string path_of(std::size_t body) const { return "/World/" + names_[body]; }
     void name_bodies();
-    void find_materials();
     std::size_t material_at(const Material& material);
     std::size_t filter_at(const std::optional<Filter>& filter);
     void put_body(std::size_t index);
