@@ -4,6 +4,7 @@
 #include <cmath>
 #include <concepts>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 #include "compute/replay/replay.h"
@@ -23,6 +24,30 @@ const Names keys = {"scree_input", "scene", "bodies",   "seed", "rate",      "su
 const Names act_names = {"grab", "drag",  "release", "add",    "join",         "unjoin",   "push",      "explode",
                          "turn", "drive", "righten", "remove", "set_material", "set_mass", "set_motion"};
 constexpr std::uint64_t most_steps = 1000000000;  // as --steps
+
+// Keys and members of an act that has no others, and needs all of them.
+template <class Act>
+constexpr auto members = std::make_tuple();
+template <>
+constexpr auto members<Grab> = std::make_tuple(std::pair("grip", &Grab::grip), std::pair("body", &Grab::body),
+                                               std::pair("anchor", &Grab::anchor), std::pair("target", &Grab::target));
+template <>
+constexpr auto members<Drag> = std::make_tuple(std::pair("grip", &Drag::grip), std::pair("target", &Drag::target));
+template <>
+constexpr auto members<Release> = std::make_tuple(std::pair("grip", &Release::grip));
+template <>
+constexpr auto members<Unjoin> = std::make_tuple(std::pair("joint", &Unjoin::joint));
+template <>
+constexpr auto members<Push> = std::make_tuple(std::pair("body", &Push::body), std::pair("force", &Push::force));
+template <>
+constexpr auto members<Explode> = std::make_tuple(std::pair("centre", &Explode::centre), std::pair("radius", &Explode::radius),
+                                                  std::pair("speed", &Explode::speed));
+template <>
+constexpr auto members<Righten> = std::make_tuple(std::pair("vehicle", &Righten::vehicle));
+template <>
+constexpr auto members<Remove> = std::make_tuple(std::pair("body", &Remove::body));
+template <>
+constexpr auto members<SetMass> = std::make_tuple(std::pair("body", &SetMass::body), std::pair("mass", &SetMass::mass));
 
 // ---- writing
 std::string text_of(float value) {
@@ -65,41 +90,34 @@ void for_each_coefficient(auto& act, const Visit& visit) {
     visit(schema::field_of(&Body::rolling_resistance).key, act.rolling_resistance);
 }
 
+template <class Act>
+std::string plain_text(const char* name, const Act& act) {
+    return std::apply([&](const auto&... one) { return act_text(name, std::pair(one.first, act.*one.second)...); }, members<Act>);
+}
+
 struct Writer {
-    std::string operator()(const Grab& act) const {
-        return act_text("grab", std::pair("grip", act.grip), std::pair("body", act.body), std::pair("anchor", act.anchor),
-                        std::pair("target", act.target));
-    }
-    std::string operator()(const Drag& act) const {
-        return act_text("drag", std::pair("grip", act.grip), std::pair("target", act.target));
-    }
-    std::string operator()(const Release& act) const { return act_text("release", std::pair("grip", act.grip)); }
+    std::string operator()(const Grab& act) const { return plain_text("grab", act); }
+    std::string operator()(const Drag& act) const { return plain_text("drag", act); }
+    std::string operator()(const Release& act) const { return plain_text("release", act); }
     std::string operator()(const Add& act) const { return "\"add\": " + body_to_json(act.body); }
     std::string operator()(const Join& act) const { return "\"join\": " + joint_to_json(act.joint); }
-    std::string operator()(const Unjoin& act) const { return act_text("unjoin", std::pair("joint", act.joint)); }
-    std::string operator()(const Push& act) const {
-        return act_text("push", std::pair("body", act.body), std::pair("force", act.force));
-    }
-    std::string operator()(const Explode& act) const {
-        return act_text("explode", std::pair("centre", act.centre), std::pair("radius", act.radius),
-                        std::pair("speed", act.speed));
-    }
+    std::string operator()(const Unjoin& act) const { return plain_text("unjoin", act); }
+    std::string operator()(const Push& act) const { return plain_text("push", act); }
+    std::string operator()(const Explode& act) const { return plain_text("explode", act); }
     std::string operator()(const Drive& act) const {
         return act_text("drive", std::pair("vehicle", act.vehicle), std::pair("throttle", act.controls.throttle),
                         std::pair("brake", act.controls.brake), std::pair("steer", act.controls.steer),
                         std::pair("hand_brake", act.controls.hand_brake));
     }
-    std::string operator()(const Righten& act) const { return act_text("righten", std::pair("vehicle", act.vehicle)); }
-    std::string operator()(const Remove& act) const { return act_text("remove", std::pair("body", act.body)); }
+    std::string operator()(const Righten& act) const { return plain_text("righten", act); }
+    std::string operator()(const Remove& act) const { return plain_text("remove", act); }
+    std::string operator()(const SetMass& act) const { return plain_text("set_mass", act); }
     std::string operator()(const SetMaterial& act) const {
         std::string inside = "\"body\": " + text_of(act.body);
         for_each_coefficient(act, [&](const char* key, const std::optional<float>& value) {
             if (value) inside += std::string(", \"") + key + "\": " + text_of(*value);
         });
         return "\"set_material\": {" + inside + "}";
-    }
-    std::string operator()(const SetMass& act) const {
-        return act_text("set_mass", std::pair("body", act.body), std::pair("mass", act.mass));
     }
     std::string operator()(const SetMotion& act) const {
         return "\"set_motion\": {\"body\": " + text_of(act.body) + ", \"motion\": \"" +
@@ -188,82 +206,45 @@ SetMotion motion_act_of(const json& value, const Place& place) {
     return act;
 }
 
+template <class Act>
+Act plain_act(const json& value, const Place& place) {
+    Act act;
+    std::apply(
+        [&](const auto&... one) {
+            only(value, place, {one.first...});
+            (required(value, place, one.first, act.*one.second), ...);
+        },
+        members<Act>);
+    return act;
+}
+
+Drive drive_of(const json& value, const Place& place) {
+    Drive act;
+    only(value, place, {"vehicle", "throttle", "brake", "steer", "hand_brake"});
+    required(value, place, "vehicle", act.vehicle);
+    optional(value, place, "throttle", act.controls.throttle);
+    optional(value, place, "brake", act.controls.brake);
+    optional(value, place, "steer", act.controls.steer);
+    optional(value, place, "hand_brake", act.controls.hand_brake);
+    return act;
+}
+
 UserCommand act_of(const std::string& name, const json& value, const Place& place) {
     if (name == "add") return Add{added_body(value, place)};
     if (name == "turn") return turn_of(value, place);
     if (name == "join") return Join{joint_of(value, place)};
+    if (name == "drive") return drive_of(value, place);
     if (name == "set_material") return material_act_of(value, place);
     if (name == "set_motion") return motion_act_of(value, place);
-    if (name == "set_mass") {
-        SetMass act;
-        only(value, place, {"body", "mass"});
-        required(value, place, "body", act.body);
-        required(value, place, "mass", act.mass);
-        return act;
-    }
-    if (name == "remove") {
-        Remove act;
-        only(value, place, {"body"});
-        required(value, place, "body", act.body);
-        return act;
-    }
-    if (name == "unjoin") {
-        Unjoin act;
-        only(value, place, {"joint"});
-        required(value, place, "joint", act.joint);
-        return act;
-    }
-    if (name == "grab") {
-        Grab act;
-        only(value, place, {"grip", "body", "anchor", "target"});
-        required(value, place, "grip", act.grip);
-        required(value, place, "body", act.body);
-        required(value, place, "anchor", act.anchor);
-        required(value, place, "target", act.target);
-        return act;
-    }
-    if (name == "drag") {
-        Drag act;
-        only(value, place, {"grip", "target"});
-        required(value, place, "grip", act.grip);
-        required(value, place, "target", act.target);
-        return act;
-    }
-    if (name == "release") {
-        Release act;
-        only(value, place, {"grip"});
-        required(value, place, "grip", act.grip);
-        return act;
-    }
-    if (name == "drive") {
-        Drive act;
-        only(value, place, {"vehicle", "throttle", "brake", "steer", "hand_brake"});
-        required(value, place, "vehicle", act.vehicle);
-        optional(value, place, "throttle", act.controls.throttle);
-        optional(value, place, "brake", act.controls.brake);
-        optional(value, place, "steer", act.controls.steer);
-        optional(value, place, "hand_brake", act.controls.hand_brake);
-        return act;
-    }
-    if (name == "righten") {
-        Righten act;
-        only(value, place, {"vehicle"});
-        required(value, place, "vehicle", act.vehicle);
-        return act;
-    }
-    if (name == "push") {
-        Push act;
-        only(value, place, {"body", "force"});
-        required(value, place, "body", act.body);
-        required(value, place, "force", act.force);
-        return act;
-    }
-    Explode act;
-    only(value, place, {"centre", "radius", "speed"});
-    required(value, place, "centre", act.centre);
-    required(value, place, "radius", act.radius);
-    required(value, place, "speed", act.speed);
-    return act;
+    if (name == "set_mass") return plain_act<SetMass>(value, place);
+    if (name == "remove") return plain_act<Remove>(value, place);
+    if (name == "unjoin") return plain_act<Unjoin>(value, place);
+    if (name == "grab") return plain_act<Grab>(value, place);
+    if (name == "drag") return plain_act<Drag>(value, place);
+    if (name == "release") return plain_act<Release>(value, place);
+    if (name == "righten") return plain_act<Righten>(value, place);
+    if (name == "push") return plain_act<Push>(value, place);
+    return plain_act<Explode>(value, place);
 }
 
 TimedAct timed_act_of(const json& value, const Place& place) {

@@ -60,8 +60,27 @@ ordered_json plain_schema() {
     return plain_schema(ShapeInfo<OfShape>::name, ShapeInfo<OfShape>::about, required, properties);
 }
 
+ordered_json decomposition_schema() {
+    return ordered_json::parse(R"schema({
+    "type": "object",
+    "additionalProperties": false,
+    "description": "a solid of convex parts, as of a dynamic body; left out: the numbers here",
+    "properties": {
+        "error": {
+            "type": "number",
+            "minimum": 0.002,
+            "maximum": 0.5,
+            "default": 0.02,
+            "description": "greatest distance between the surfaces, in longest extents of the mesh"
+        },
+        "parts": {"type": "integer", "minimum": 1, "maximum": 256, "default": 32, "description": "at most; fewer have a greater error"},
+        "vertices": {"type": "integer", "minimum": 8, "maximum": 64, "default": 64, "description": "of a part, at most"}
+    }
+})schema");
+}
+
 ordered_json schemas_with_lists() {
-    return ordered_json::parse(R"schema([
+    ordered_json shapes = ordered_json::parse(R"schema([
         {
             "required": ["hull"],
             "additionalProperties": false,
@@ -171,22 +190,7 @@ ordered_json schemas_with_lists() {
                             "required": ["file"],
                             "additionalProperties": false,
                             "properties": {
-                                "decompose": {
-                                    "type": "object",
-                                    "additionalProperties": false,
-                                    "description": "a solid of convex parts, as of a dynamic body; left out: the numbers here",
-                                    "properties": {
-                                        "error": {
-                                            "type": "number",
-                                            "minimum": 0.002,
-                                            "maximum": 0.5,
-                                            "default": 0.02,
-                                            "description": "greatest distance between the surfaces, in longest extents of the mesh"
-                                        },
-                                        "parts": {"type": "integer", "minimum": 1, "maximum": 256, "default": 32, "description": "at most; fewer have a greater error"},
-                                        "vertices": {"type": "integer", "minimum": 8, "maximum": 64, "default": 64, "description": "of a part, at most"}
-                                    }
-                                },
+                                "decompose": null,
                                 "file": {
                                     "type": "string",
                                     "minLength": 1,
@@ -205,22 +209,7 @@ ordered_json schemas_with_lists() {
                             "required": ["vertices", "triangles"],
                             "additionalProperties": false,
                             "properties": {
-                                "decompose": {
-                                    "type": "object",
-                                    "additionalProperties": false,
-                                    "description": "a solid of convex parts, as of a dynamic body; left out: the numbers here",
-                                    "properties": {
-                                        "error": {
-                                            "type": "number",
-                                            "minimum": 0.002,
-                                            "maximum": 0.5,
-                                            "default": 0.02,
-                                            "description": "greatest distance between the surfaces, in longest extents of the mesh"
-                                        },
-                                        "parts": {"type": "integer", "minimum": 1, "maximum": 256, "default": 32, "description": "at most; fewer have a greater error"},
-                                        "vertices": {"type": "integer", "minimum": 8, "maximum": 64, "default": 64, "description": "of a part, at most"}
-                                    }
-                                },
+                                "decompose": null,
                                 "vertices": {
                                     "type": "array",
                                     "minItems": 3,
@@ -272,6 +261,11 @@ ordered_json schemas_with_lists() {
             }
         }
 ])schema");
+    for (ordered_json& shape : shapes)
+        if (shape["properties"].contains("mesh"))
+            for (ordered_json& form : shape["properties"]["mesh"]["oneOf"])
+                form["properties"]["decompose"] = decomposition_schema();
+    return shapes;
 }
 
 }  // namespace

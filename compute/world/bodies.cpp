@@ -45,13 +45,7 @@ void World::Impl::count_bodies() {
 
 // A run of that many: the lowest that is free, or at the end.
 std::size_t World::Impl::take_indices(std::size_t count) {
-    const auto run = std::find_if(free_indices.begin(), free_indices.end(), [&](const auto& one) { return one.second >= count; });
-    if (run != free_indices.end()) {
-        const auto [first, length] = *run;
-        free_indices.erase(run);
-        if (length > count) free_indices[first + count] = length - count;
-        return first;
-    }
+    if (const auto free = take_run(free_indices, count)) return *free;
     const std::size_t first = scene.bodies.size();
     scene.bodies.resize(first + count);
     count_bodies();
@@ -78,22 +72,7 @@ void World::Impl::free_index(std::size_t body) {
 
 void World::Impl::release_indices() {
     if (freed.empty()) return;
-    for (const std::size_t index : freed) {
-        std::size_t first = index, count = 1;
-        if (const auto next = free_indices.find(index + 1); next != free_indices.end()) {
-            count += next->second;
-            free_indices.erase(next);
-        }
-        const auto after = free_indices.lower_bound(index);
-        if (after != free_indices.begin()) {
-            const auto before = std::prev(after);
-            if (before->first + before->second == index) {
-                first = before->first;
-                count += before->second;
-            }
-        }
-        free_indices[first] = count;
-    }
+    for (const std::size_t index : freed) add_run(free_indices, index, std::size_t{1});
     freed.clear();
     edits.clear();
 }

@@ -1,6 +1,6 @@
 // World: the table of hulls is used again where bodies were removed.
 #include <algorithm>
-#include <iterator>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -29,23 +29,6 @@ std::uint32_t records_of(const State& state, const physics::BodyProperties& row)
 
 }  // namespace
 
-void World::Impl::spare_hull_records(std::uint32_t place, std::uint32_t count) {
-    const auto next = spare_hulls.lower_bound(place);
-    if (next != spare_hulls.end() && next->first == place + count) {
-        count += next->second;
-        spare_hulls.erase(next);
-    }
-    const auto after = spare_hulls.lower_bound(place);
-    if (after != spare_hulls.begin()) {
-        const auto before = std::prev(after);
-        if (before->first + before->second == place) {
-            before->second += count;
-            return;
-        }
-    }
-    spare_hulls[place] = count;
-}
-
 std::map<std::uint32_t, std::uint32_t> World::Impl::hulls_of_added(const std::vector<std::uint32_t>& bodies) const {
     std::set<std::uint32_t> rows;
     for (const std::uint32_t body : bodies) rows.insert(state.row_of(body));
@@ -64,17 +47,16 @@ void World::Impl::free_hulls(std::map<std::uint32_t, std::uint32_t> records) {
     for (const physics::BodyProperties& row : state.properties)
         if (has_records(row)) records.erase(row.shape_data);  // shared with a body that stays
     std::erase_if(state.shape_places.hulls, [&](const auto& one) { return records.contains(one.second); });
-    for (const auto& [place, count] : records) spare_hull_records(place, count);
+    for (const auto& [place, count] : records) add_run(spare_hulls, place, count);
 }
 
 // What a new body appended moves to where others were.
 void World::Impl::pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed) {
     const auto count = static_cast<std::uint32_t>(state.hulls.size() - before);
-    const auto run = std::find_if(spare_hulls.begin(), spare_hulls.end(), [&](const auto& one) { return one.second >= count; });
-    if (count == 0 || run == spare_hulls.end()) return;
-    const std::uint32_t place = run->first, length = run->second;
-    spare_hulls.erase(run);
-    if (length > count) spare_hulls[place + count] = length - count;
+    if (count == 0) return;
+    const std::optional<std::uint32_t> taken = take_run(spare_hulls, count);
+    if (!taken) return;
+    const std::uint32_t place = *taken;
     std::copy(state.hulls.begin() + static_cast<std::ptrdiff_t>(before), state.hulls.end(), state.hulls.begin() + place);
     state.hulls.resize(before);
     const auto moved = [&](physics::uint& at) {

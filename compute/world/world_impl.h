@@ -21,6 +21,7 @@
 #include "compute/statistics.h"
 #include "compute/tables/table_ranges.h"
 #include "compute/world.h"
+#include "compute/world/free_runs.h"
 #include "compute/world/queries/events.h"
 #include "compute/world/queries/query_scene.h"
 #include "compute/world/states/state_bytes.h"
@@ -69,8 +70,8 @@ struct World::Impl {
     std::vector<std::uint32_t> generations;
     std::vector<std::uint8_t> gone;
     std::vector<Origin> origins;
-    std::map<std::size_t, std::size_t> free_indices;  // runs: first, count
-    std::vector<std::size_t> freed;                   // since the last step; free after the next
+    FreeRuns<std::size_t> free_indices;
+    std::vector<std::size_t> freed;  // since the last step; free after the next
     // The bodies of the start that were changed (without their shapes) or replaced.
     std::map<std::size_t, Body> originals;
     std::uint64_t arrangements = 0;
@@ -224,9 +225,8 @@ struct World::Impl {
     TableRanges break_joints_of(const std::vector<std::size_t>& bodies);
     TableRanges free_families_of(const std::vector<std::size_t>& bodies);
     void keep_original(std::size_t body);
-    // hull_room.cpp: runs of the table of hulls that no body uses any more: first record, count
-    std::map<std::uint32_t, std::uint32_t> spare_hulls;
-    void spare_hull_records(std::uint32_t place, std::uint32_t count);
+    // hull_room.cpp: records of the table of hulls that no body uses any more
+    FreeRuns<std::uint32_t> spare_hulls;
     std::map<std::uint32_t, std::uint32_t> hulls_of_added(const std::vector<std::uint32_t>& bodies) const;
     void free_hulls(std::map<std::uint32_t, std::uint32_t> records);  // after the bodies are removed
     void pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed);

@@ -136,8 +136,5 @@ const std::vector<std::string>& sky_words() {
 std::string word_of(ShownQuantity quantity) {
     return all_words<ShownQuantity>()[static_cast<std::size_t>(quantity)];
 }
-ShownQuantity quantity_named(const std::string& word) {
-    return named<ShownQuantity>(word);
-}
 
 }  // namespace scree::demos

@@ -36,6 +36,5 @@ const std::vector<std::string>& color_scale_words();
 const std::vector<std::string>& overlay_words();
 const std::vector<std::string>& sky_words();
 std::string word_of(ShownQuantity quantity);
-ShownQuantity quantity_named(const std::string& word);  // one of color_words()
 
 }  // namespace scree::demos

@@ -8,12 +8,14 @@
 
 namespace scree::demos {
 
+namespace {
+
+// The y axis of a chassis in the world.
 vec3 up_of(const BodyState& body) {
     return physics::rotate(body.orientation, vec3(0, 1, 0));
 }
-vec3 ahead_of(const BodyState& body) {
-    return physics::rotate(body.orientation, vec3(0, 0, 1));
-}
+
+}  // namespace
 
 Body wedge(vec3 position, float width, float length, float rise, float heading) {
     Body body;

@@ -8,9 +8,6 @@
 
 namespace scree::demos {
 
-vec3 up_of(const BodyState& body);     // y axis of a chassis in the world
-vec3 ahead_of(const BodyState& body);  // z axis
-
 // A fixed wedge (a hull) that rises along its z axis from 0 to `rise`, beginning at `position`; lengths in m.
 Body wedge(vec3 position, float width, float length, float rise, float heading);
 

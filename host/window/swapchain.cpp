@@ -124,7 +124,6 @@ bool Swapchain::build(int width, int height) {
     }
     for (std::size_t i = 0; i <= images.size(); ++i) spare_.push_back(new_semaphore());
     stale_ = false;
-    ++rebuilds_;
     return true;
 }
 

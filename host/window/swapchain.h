@@ -22,7 +22,6 @@ public:
 
     VkFormat format() const { return format_.format; }  // sRGB
     VkExtent2D extent() const { return extent_; }
-    std::uint64_t rebuilds() const { return rebuilds_; }
 
     struct Target {
         VkImage image = VK_NULL_HANDLE;
@@ -54,7 +53,6 @@ private:
     std::uint32_t index_ = 0;
     bool stale_ = true;
     bool lost_ = false;
-    std::uint64_t rebuilds_ = 0;
 };
 
 }  // namespace scree::host

@@ -3,7 +3,7 @@
 
 #include "compute/scene_file/picture_style.h"
 #include "demos/film/drawing.h"
-#include "demos/film/glb_meshes.h"
+#include "demos/film/export/glb_meshes.h"
 #include "demos/film/style.h"
 #include "host/system/machine.h"
 #include "tests/world/solid_meshes.h"

@@ -7,9 +7,9 @@
 
 #include "compute/scene_file/load_scene.h"
 #include "compute/world.h"
-#include "demos/film/animation.h"
 #include "demos/film/drawing.h"
-#include "demos/film/glb_writer.h"
+#include "demos/film/export/animation.h"
+#include "demos/film/export/glb_writer.h"
 #include "host/canvas/canvas.h"
 #include "host/canvas/texels.h"
 #include "host/files/mesh_file.h"

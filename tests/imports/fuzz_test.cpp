@@ -1,11 +1,11 @@
 // Mutated files of other programs: refused with file and place, or read; never a crash, a hang, or memory out of proportion.
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <random>
 #include <sstream>
 
 #include "tests/imports/import_case.h"
+#include "tests/imports/mutants.h"
 #include "tests/sanitized.h"
 
 using namespace scree;
@@ -97,8 +97,7 @@ const std::string scene_text = R"({"gravity": [0, -9.81, 0], "settings": {"subst
 }  // namespace
 
 TEST_CASE("imports: mutated scene files are read or refused with a place") {
-    const char* wanted = std::getenv("SCREE_FUZZ");
-    const int count = wanted ? std::atoi(wanted) : 400;
+    const int count = imported::mutants(400);
     Case file;
     file.write("cube.obj", cube_obj());
     REQUIRE(checked(file.load("a.json", scene_text).scene).bodies.size() >= 5);
@@ -139,10 +138,8 @@ TEST_CASE("imports: a hundred thousand keys, and a key of twenty million letters
     CHECK(static_cast<double>(std::clock() - start) < 3 * tests::slowness * CLOCKS_PER_SEC);  // of the processor
 }
 
-// SCREE_FUZZ=10000 mutates each format so often.
 TEST_CASE("imports: mutated files are read or refused with file and place") {
-    const char* wanted = std::getenv("SCREE_FUZZ");
-    const int count = wanted ? std::atoi(wanted) : 400;
+    const int count = imported::mutants(400);
     std::string stl(84, ' ');
     stl[80] = 4, stl[81] = stl[82] = stl[83] = 0;
     const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -168,23 +165,13 @@ TEST_CASE("imports: mutated files are read or refused with file and place") {
     for (const auto& [name, text] : formats) {
         INFO(name);
         REQUIRE(file.refusal(name, text).empty());
-        int refused = 0;
-        double longest = 0;
-        for (int seed = 1; seed <= count; ++seed) {
-            std::mt19937 random(static_cast<unsigned>(seed));
-            const std::string mutant = mutated(text, random);
-            INFO("seed " << seed);
-            ImportOptions options;
-            if (seed % 3 == 0) options.keyframe = "0";
-            if (seed % 5 == 0) options.ground = true, options.base = ImportedBase::free;
-            const std::clock_t start = std::clock();
-            const std::string why = file.refusal(name, mutant, options);
-            longest = std::max(longest, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-            refused += !why.empty();
-            if (!why.empty() && why.find(name) != 0) FAIL_CHECK("names no file: " << why);
-        }
-        CHECK(longest < 5 * tests::slowness);
-        CHECK(refused > 0);
-        CHECK(refused < count);
+        imported::check_mutants(
+            file, name, count, [&text = text](std::mt19937& random) { return mutated(text, random); },
+            [](int seed) {
+                ImportOptions options;
+                if (seed % 3 == 0) options.keyframe = "0";
+                if (seed % 5 == 0) options.ground = true, options.base = ImportedBase::free;
+                return options;
+            });
     }
 }

@@ -7,6 +7,7 @@
 
 #include "compute/scene_file/load_scene.h"
 #include "demos/scenes/demos.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 using namespace scree;
@@ -67,27 +68,19 @@ TEST_CASE("a scene file that refers to its bodies, or is not one, is not streame
 
 TEST_CASE("streaming a scene file refuses what loading it refuses, with the same words", "[json]") {
     const tests::TemporaryFolder folder;
-    const auto refusal = [](const auto& read) -> std::string {
-        try {
-            read();
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
-    };
     for (const std::string& bodies :
          {ball("") + ", " + ball(R"(, "density": -1)"), ball("") + R"(, {"shape": {"sphere": {"radius": -1}}})",
           ball(R"(, "colour": 3)"), ball(R"(, "density": 1, "density": 2)"),
           std::string(R"({"motion": "fixed", "shape": {"mesh": {"file": "../none.obj"}}})"),
           std::string(R"({"motion": "fixed", "shape": {"mesh": {"file": "none.obj"}}})")}) {
         const auto path = folder.write("scene.json", R"({"bodies": [)" + bodies + "]}");
-        const std::string expected = refusal([&] { (void)checked(load_scene(path).scene); });
+        const std::string expected = tests::refusal_of([&] { (void)checked(load_scene(path).scene); });
         INFO(bodies);
         REQUIRE(!expected.empty());
-        CHECK(refusal([&] { (void)stream_scene(path); }) == expected);
+        CHECK(tests::refusal_of([&] { (void)stream_scene(path); }) == expected);
     }
     const auto path = folder.write("scene.json", R"({"bodies": [)" + ball("") + R"(], "gravity": [0, 1e9, 0]})");
-    CHECK(refusal([&] { (void)stream_scene(path); }) == refusal([&] { (void)load_scene(path); }));
+    CHECK(tests::refusal_of([&] { (void)stream_scene(path); }) == tests::refusal_of([&] { (void)load_scene(path); }));
 }
 
 TEST_CASE("a streamed scene file reads the mesh that several bodies name, and notes what it simplified", "[json]") {

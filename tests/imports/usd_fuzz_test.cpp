@@ -1,12 +1,10 @@
 // Mutated USD files: read, or refused with the file's name; never a crash, a hang, or memory out of proportion.
-#include <cstdlib>
-#include <ctime>
 #include <random>
 
 #include "tests/imports/crate_writer.h"
 #include "tests/imports/import_case.h"
+#include "tests/imports/mutants.h"
 #include "tests/imports/usd_text.h"
-#include "tests/sanitized.h"
 
 using namespace scree;
 using scree::imported::Case;
@@ -51,10 +49,8 @@ std::string usd_mutated(std::string bytes, std::mt19937& random, bool binary) {
 
 }  // namespace
 
-// SCREE_FUZZ=10000 mutates each format so often.
 TEST_CASE("imports: mutated USD files are read or refused with file and place") {
-    const char* wanted = std::getenv("SCREE_FUZZ");
-    const int count = wanted ? std::atoi(wanted) : 500;
+    const int count = imported::mutants(500);
     const std::string crate = imported::crate_of(*imports::layer_of_usda(imported::everything_usda, "text"), 8);
     const std::pair<std::string, std::string> formats[] = {
         {"a.usda", imported::everything_usda},
@@ -64,20 +60,9 @@ TEST_CASE("imports: mutated USD files are read or refused with file and place") 
     for (const auto& [name, bytes] : formats) {
         INFO(name);
         REQUIRE(file.refusal(name, bytes).empty());
-        int refused = 0;
-        double longest = 0;
-        for (int seed = 1; seed <= count; ++seed) {
-            std::mt19937 random(static_cast<unsigned>(seed));
-            const std::string mutant = usd_mutated(bytes, random, name != "a.usda");
-            INFO("seed " << seed);
-            const std::clock_t start = std::clock();
-            const std::string why = file.refusal(name, mutant);
-            longest = std::max(longest, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-            refused += !why.empty();
-            if (!why.empty() && why.find(name) != 0) FAIL_CHECK("names no file: " << why);
-        }
-        CHECK(longest < 5 * tests::slowness);
-        CHECK(refused > 0);
-        CHECK(refused < count);
+        imported::check_mutants(
+            file, name, count,
+            [&name = name, &bytes = bytes](std::mt19937& random) { return usd_mutated(bytes, random, name != "a.usda"); },
+            [](int) { return ImportOptions{}; });
     }
 }

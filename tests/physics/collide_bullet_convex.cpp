@@ -16,20 +16,16 @@
 #include "compute/scene/meshes/mesh.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_triangle.h"
+#include "tests/physics/chance.h"
 
 using namespace scree;
+using tests::any_turn;
+using tests::between;
 
 namespace {
 
 using Chance = std::mt19937;
 
-float between(Chance& chance, float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(chance);
-}
-vec4 any_turn(Chance& chance) {
-    std::normal_distribution<float> normal;
-    return glm::normalize(vec4{normal(chance), normal(chance), normal(chance), normal(chance)});
-}
 vec3 any_point(Chance& chance, float reach) {
     return {between(chance, -reach, reach), between(chance, -reach, reach), between(chance, -reach, reach)};
 }

@@ -9,21 +9,16 @@
 #include "compute/scene/meshes/hull.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_convex.h"
+#include "tests/physics/chance.h"
 
 using namespace scree;
 using glm::dvec3;
+using tests::any_turn;
+using tests::between;
 
 namespace {
 
 using Chance = std::mt19937;
-
-float between(Chance& chance, float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(chance);
-}
-vec4 any_turn(Chance& chance) {
-    std::normal_distribution<float> normal;
-    return glm::normalize(vec4{normal(chance), normal(chance), normal(chance), normal(chance)});
-}
 
 Shape any_shape(std::size_t kind, Chance& chance) {
     if (kind == 0) return Sphere{between(chance, 0.2f, 0.6f)};

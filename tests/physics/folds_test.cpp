@@ -6,23 +6,19 @@
 
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/collide_triangle.h"
+#include "tests/physics/chance.h"
 
 using namespace scree;
+using tests::any_turn;
+using tests::between;
 
 namespace {
 
 using Chance = std::mt19937;
 
-float between(Chance& chance, float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(chance);
-}
 vec3 any_direction(Chance& chance) {
     std::normal_distribution<float> normal;
     return glm::normalize(vec3(normal(chance), normal(chance), normal(chance)));
-}
-vec4 any_turn(Chance& chance) {
-    std::normal_distribution<float> normal;
-    return glm::normalize(vec4(normal(chance), normal(chance), normal(chance), normal(chance)));
 }
 
 const char* const kinds[] = {"sphere", "capsule", "box", "cylinder", "cone", "hull"};

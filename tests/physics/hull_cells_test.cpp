@@ -9,16 +9,14 @@
 #include "compute/scene/meshes/hull.h"
 #include "compute/tables/state.h"
 #include "shaders/physics/collide/separating_axis.h"
+#include "tests/physics/chance.h"
 
 using namespace scree;
+using tests::between;
 
 namespace {
 
 using Chance = std::mt19937;
-
-float between(Chance& chance, float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(chance);
-}
 
 vec3 any_direction(Chance& chance) {
     vec3 v(0);

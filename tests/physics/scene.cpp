@@ -9,6 +9,7 @@
 #include <random>
 
 #include "compute/scene_file/scene_json.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -162,14 +163,7 @@ TEST_CASE("scene: every float reads back to the same bits", "[scene]") {
 }
 
 TEST_CASE("scene: what is wrong in a text is told with its place", "[scene]") {
-    const auto told = [](const std::string& text) -> std::string {
-        try {
-            scene_from_json(text, 3);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
-    };
+    const auto told = [](const std::string& text) -> std::string { return tests::refusal_of([&] { scene_from_json(text, 3); }); };
     const std::string ball = R"({"shape": {"sphere": {"radius": 1}}})";
     REQUIRE(told("{\"bodies\": [" + ball + "]}").empty());
     REQUIRE(told("{\"bodies\": []}").empty());

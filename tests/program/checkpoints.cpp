@@ -1,6 +1,5 @@
 // scree run --checkpoint and --resume: an interrupted run goes on to the same final hash.
 #include <catch2/catch.hpp>
-#include <regex>
 
 #include "tests/program/program.h"
 
@@ -8,13 +7,9 @@ using scree::program::Outcome;
 using scree::program::Place;
 using scree::program::run_scree;
 using scree::program::says;
+using scree::program::state_hash_in;
 
 namespace {
-
-std::string hash_in(const std::string& report) {
-    std::smatch found;
-    return std::regex_search(report, found, std::regex("\"state_hash\": \"([0-9a-f]{16})\"")) ? found[1].str() : "";
-}
 
 const std::string pile = "run pile --bodies 200 --steps 400 --backend cpu --quiet --report - ";
 
@@ -23,7 +18,7 @@ const std::string pile = "run pile --bodies 200 --steps 400 --backend cpu --quie
 TEST_CASE("program: a run that was killed goes on from its last checkpoint to the same final hash", "[program]") {
     const Place place;
     const std::string file = (place / "run.checkpoint").string();
-    const std::string whole = hash_in(run_scree(pile).output);
+    const std::string whole = state_hash_in(run_scree(pile).output);
     REQUIRE(whole.size() == 16);
     int resumed = 0;
     // Later ones where the machine is so slow that no checkpoint was written before.
@@ -35,7 +30,7 @@ TEST_CASE("program: a run that was killed goes on from its last checkpoint to th
         const Outcome later = run_scree("run --resume '" + file + "' --backend cpu --threads 1 --quiet --report -");
         INFO(later.errors);
         REQUIRE(later.status == 0);
-        REQUIRE(hash_in(later.output) == whole);
+        REQUIRE(state_hash_in(later.output) == whole);
     }
     REQUIRE(resumed > 0);
 }
@@ -46,11 +41,11 @@ TEST_CASE("program: a resumed run takes scene and settings from the checkpoint, 
     const std::string run = "run cradle --seed 3 --rate 120 --steps 90 --backend cpu --quiet --report - ";
     REQUIRE(run_scree(run + "--checkpoint '" + file + "'").status == 0);
     const std::string longer =
-        hash_in(run_scree("run cradle --seed 3 --rate 120 --steps 200 --backend cpu --quiet --report -").output);
+        state_hash_in(run_scree("run cradle --seed 3 --rate 120 --steps 200 --backend cpu --quiet --report -").output);
     const std::string resume = "run --backend cpu --quiet --report - --resume '" + file + "' ";
     const Outcome same = run_scree(resume + "--steps 200");
     INFO(same.errors);
-    REQUIRE(hash_in(same.output) == longer);
+    REQUIRE(state_hash_in(same.output) == longer);
     REQUIRE(says(same.output, "\"resumed_at\": 90"));
     const auto refused = [&](const std::string& arguments, const std::string& words) {
         const Outcome outcome = run_scree(arguments);

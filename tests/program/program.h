@@ -32,6 +32,13 @@ inline Outcome run_scree(const std::string& arguments, const std::string& before
     return outcome;
 }
 
+// Empty where a report has none.
+inline std::string state_hash_in(const std::string& report) {
+    const std::string key = "\"state_hash\": \"";
+    const auto at = report.find(key);
+    return at == report.npos ? "" : report.substr(at + key.size(), 16);
+}
+
 inline bool says(const std::string& text, const std::string& words) {
     return text.find(words) != std::string::npos;
 }

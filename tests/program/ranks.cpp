@@ -8,13 +8,9 @@ using scree::program::Outcome;
 using scree::program::Place;
 using scree::program::run_scree;
 using scree::program::says;
+using scree::program::state_hash_in;
 
 namespace {
-
-std::string hash_after(const std::string& report) {
-    std::smatch found;
-    return std::regex_search(report, found, std::regex("\"state_hash\": \"([0-9a-f]{16})\"")) ? found[1].str() : "";
-}
 
 // mpirun in the network of this machine, with more processes than cores if need be. Open MPI leaks from frames without a name;
 // leaks of ranks are looked for where they share a process (tests/world).
@@ -40,13 +36,13 @@ TEST_CASE("program: a world on several processes ends with the hash of one", "[p
     for (const std::string scene :
          {"pile --bodies 200 --steps 90", "assortment --bodies 60 --steps 30", "ragdolls --bodies 60 --steps 40"}) {
         const std::string run = "run " + scene + " --threads 1 --quiet --report - ";
-        const std::string alone = hash_after(run_scree(run + "--backend cpu").output);
+        const std::string alone = state_hash_in(run_scree(run + "--backend cpu").output);
         REQUIRE(alone.size() == 16);
         for (const int n : {1, 2, 4}) {
             const Outcome outcome = run_scree(run + "--distributed", ranks(n));
             INFO(scene << " on " << n << " ranks\n" << outcome.errors);
             REQUIRE(outcome.status == 0);
-            REQUIRE(hash_after(outcome.output) == alone);
+            REQUIRE(state_hash_in(outcome.output) == alone);
             REQUIRE(says(outcome.output, "\"ranks\": {\n    \"count\": " + std::to_string(n)));
         }
     }
@@ -62,8 +58,8 @@ TEST_CASE("program: several processes read a scene file one body after the other
     const Outcome alone = run_scree(run + steps + "--backend cpu"), outcome = run_scree(run + steps + "--distributed", ranks(2));
     INFO(outcome.errors);
     REQUIRE(outcome.status == 0);
-    REQUIRE(hash_after(alone.output).size() == 16);
-    CHECK(hash_after(outcome.output) == hash_after(alone.output));
+    REQUIRE(state_hash_in(alone.output).size() == 16);
+    CHECK(state_hash_in(outcome.output) == state_hash_in(alone.output));
     const std::regex scene_hash("\"scene_hash\": \"[0-9a-f]{16}\"");
     std::smatch one, two;
     REQUIRE((std::regex_search(alone.output, one, scene_hash) && std::regex_search(outcome.output, two, scene_hash)));
@@ -83,21 +79,21 @@ TEST_CASE("program: a world on the devices of several processes ends with the ha
     const auto frames = [&](const std::string& folder) {
         return " --frames '" + (place / folder).string() + "' --fps 5 --size 160x120 --no-caption --canvas gl ";
     };
-    const std::string alone = hash_after(run_scree(run + "--backend cpu --threads 1" + frames("one")).output);
+    const std::string alone = state_hash_in(run_scree(run + "--backend cpu --threads 1" + frames("one")).output);
     REQUIRE(alone.size() == 16);
     const Outcome outcome = run_scree(
         run + "--backend vulkan --distributed" + frames("two") + "--checkpoint '" + (place / "two.checkpoint").string() + "'",
         ranks(2));
     INFO(outcome.errors);
     REQUIRE(outcome.status == 0);
-    CHECK(hash_after(outcome.output) == alone);
+    CHECK(state_hash_in(outcome.output) == alone);
     CHECK(says(outcome.output, "\"backend\": \"vulkan\""));
     for (const std::string name : {"frame_000000.png", "frame_000002.png"})
         CHECK(place.read("two/" + name) == place.read("one/" + name));
     const std::string later = "run --steps 30 --quiet --report - --resume '" + (place / "two.checkpoint").string() + "'";
-    const std::string resumed = hash_after(run_scree(later + " --backend cpu --threads 1").output);
+    const std::string resumed = state_hash_in(run_scree(later + " --backend cpu --threads 1").output);
     REQUIRE(resumed.size() == 16);
-    CHECK(hash_after(run_scree(later + " --backend vulkan --distributed", ranks(2)).output) == resumed);
+    CHECK(state_hash_in(run_scree(later + " --backend vulkan --distributed", ranks(2)).output) == resumed);
 }
 
 TEST_CASE("program: a step that needs more memory than ranks are allowed ends them all, and says so",
@@ -124,15 +120,15 @@ TEST_CASE("program: a checkpoint of two processes is resumed by one and by three
     const Place place;
     const std::string file = "'" + (place / "run.checkpoint").string() + "'";
     const std::string run = "run mix --bodies 80 --backend cpu --threads 1 --quiet --report - ";
-    const std::string whole = hash_after(run_scree(run + "--steps 80").output);
+    const std::string whole = state_hash_in(run_scree(run + "--steps 80").output);
     const Outcome first = run_scree(
         run + "--steps 40 --distributed --checkpoint " + file + " --trajectory '" + (place / "run.csv").string() + "'", ranks(2));
     INFO(first.errors);
     REQUIRE(first.status == 0);
     REQUIRE(std::filesystem::file_size(place / "run.csv") > 1000);
     const std::string later = "run --steps 80 --backend cpu --threads 1 --quiet --report - --resume " + file;
-    REQUIRE(hash_after(run_scree(later).output) == whole);
-    REQUIRE(hash_after(run_scree(later + " --distributed", ranks(3)).output) == whole);
+    REQUIRE(state_hash_in(run_scree(later).output) == whole);
+    REQUIRE(state_hash_in(run_scree(later + " --distributed", ranks(3)).output) == whole);
 }
 
 // A world that is shared out, and one with joints, which is not.
@@ -166,8 +162,8 @@ TEST_CASE("program: pictures of several processes are those of one, and checkpoi
         std::filesystem::remove_all(place / "named");
         const std::string later = "run --steps 40 --backend cpu --threads 1 --quiet --report - --resume " + file;
         const std::string whole =
-            hash_after(run_scree("run " + scene + " --backend cpu --threads 1 --quiet --steps 40 --report -").output);
-        REQUIRE(hash_after(run_scree(later).output) == whole);
+            state_hash_in(run_scree("run " + scene + " --backend cpu --threads 1 --quiet --steps 40 --report -").output);
+        REQUIRE(state_hash_in(run_scree(later).output) == whole);
     }
 }
 
@@ -198,7 +194,7 @@ TEST_CASE("program: a rank that is killed anywhere in a step ends the run, and a
     const std::string file = "'" + (place / "run.checkpoint").string() + "'", calls = (place / "calls").string();
     constexpr int steps = 48, places = 8;
     const std::string run = "run shatter --bodies 40 --backend cpu --threads 1 --quiet --steps " + std::to_string(steps);
-    const std::string whole = hash_after(run_scree(run + " --report -").output);
+    const std::string whole = state_hash_in(run_scree(run + " --report -").output);
     REQUIRE(whole.size() == 16);
     const std::string distributed = run + " --distributed --checkpoint " + file + " --every 0.2 --trajectory '" +
                                     (place / "run.csv").string() + "'";  // a checkpoint every 12 steps
@@ -225,7 +221,7 @@ TEST_CASE("program: a rank that is killed anywhere in a step ends the run, and a
             "run --backend cpu --threads 1 --quiet --report - --steps " + std::to_string(steps) + " --resume " + file;
         const Outcome resumed = k % 2 ? run_scree(later) : run_scree(later + " --distributed", ranks(2));
         INFO(resumed.errors);
-        REQUIRE(hash_after(resumed.output) == whole);
+        REQUIRE(state_hash_in(resumed.output) == whole);
     }
 }
 #endif

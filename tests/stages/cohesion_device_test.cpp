@@ -4,6 +4,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/museum.h"
@@ -15,10 +16,7 @@ TEST_CASE("every stage gives the same bits on both processors where bodies of al
           "[vulkan][process:kinds]") {
     const Watched watched;
     const Scene scene = tests::sticky(tests::museum(20), 500);
-    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 40);
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 40));
 }
 
 TEST_CASE("a device goes on from a checkpoint of the CPU with its bits while bodies attract each other",

@@ -5,6 +5,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
@@ -26,10 +27,7 @@ TEST_CASE("copies of a scene with a gravity of their own are equal on both proce
     Lockstep lockstep(tests::heap(10), {.pairs_at_first = 16, .contacts_at_first = 8}, watched.device, 2, 3, vary);
     for (int step = 0; step < 16; ++step) {
         lockstep.step();
-        const LockstepResult& result = lockstep.result();
-        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                     << result.detail);
-        REQUIRE(result.equal);
+        tests::require_equal(lockstep.result());
     }
 }
 

@@ -6,6 +6,7 @@
 #include "compute/plan/stage_fusion.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/coupled.h"
@@ -21,10 +22,7 @@ void require_equal(const Scene& scene, int steps) {
     settings.sleep_time = 0.2f;
     Lockstep lockstep(scene, settings, watched.device, 2);
     for (int i = 0; i < steps && lockstep.step(); ++i) continue;
-    const LockstepResult& result = lockstep.result();
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(lockstep.result());
 }
 
 // A train of wheels with as many couplings as a block takes.

@@ -7,6 +7,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "host/canvas/canvas.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
@@ -72,10 +73,7 @@ TEST_CASE("dispatches of more workgroups than one axis has room for give the sam
         Lockstep lockstep(scene, small, watched.device, 1);
         for (int step = 0; step < steps; ++step) {
             lockstep.step();
-            const LockstepResult& result = lockstep.result();
-            INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                         << result.detail);
-            REQUIRE(result.equal);
+            tests::require_equal(lockstep.result());
         }
         std::vector<physics::Counts> counts(1);
         lockstep.device().read(Table::counts, std::as_writable_bytes(std::span(counts)));

@@ -4,6 +4,7 @@
 
 #include "compute/device/lockstep.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 
@@ -44,9 +45,6 @@ TEST_CASE("every stage gives the same bits on both processors for ellipsoids amo
             body.orientation = {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)};
             body.velocity = {0, k % 7 == 0 ? -40.0f : -1.0f, 0};
         }
-        const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), device, 1, 40);
-        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                     << result.detail);
-        REQUIRE(result.equal);
+        tests::require_equal(compare_in_lockstep(scene, tests::coarse(), device, 1, 40));
     }
 }

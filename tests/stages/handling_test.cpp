@@ -5,6 +5,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
@@ -12,12 +13,6 @@
 using namespace scree;
 
 namespace {
-
-void require_equal(const LockstepResult& result) {
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
-}
 
 physics::Grip hold(physics::uint body, vec3 anchor, vec3 target) {
     physics::Grip grip{};
@@ -89,7 +84,7 @@ TEST_CASE("every stage gives the same bits on both processors while bodies are h
             p.grips[3] = hold(31, vec3(0.05f, 0, 0), vec3(1e5f, 0, 0));
         });
         lockstep.step();
-        require_equal(lockstep.result());
+        tests::require_equal(lockstep.result());
     }
 }
 
@@ -114,7 +109,7 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
                           [&](StateEditor& editor) { return editor.add(box); });
         }
         lockstep.step();
-        require_equal(lockstep.result());
+        tests::require_equal(lockstep.result());
     }
 }
 

@@ -9,6 +9,7 @@
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "shaders/physics/joint/joint_block.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/jointed.h"
@@ -24,10 +25,7 @@ void require_equal(const Scene& scene, int steps) {
     const Watched watched;
     Lockstep lockstep(scene, tests::coarse(), watched.device, 2);
     for (int i = 0; i < steps && lockstep.step(); ++i) continue;
-    const LockstepResult& result = lockstep.result();
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(lockstep.result());
 }
 
 std::uint32_t rounds_at_once(const Scene& scene) {
@@ -54,10 +52,7 @@ TEST_CASE("joints of every kind give the same bits on both processors, and valid
     settings.sleep_time = 0.2f;
     Lockstep lockstep(all_kinds(), settings, device, 2);
     for (int i = 0; i < 60 && lockstep.step(); ++i) continue;
-    const LockstepResult& result = lockstep.result();
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    CHECK(result.equal);
+    tests::require_equal(lockstep.result());
 }
 
 TEST_CASE("joints that turn by several turns give the same bits on both processors", "[process:kinds]") {

@@ -13,6 +13,7 @@
 #include "compute/tables/state.h"
 #include "compute/world.h"
 #include "shaders/physics/continuous/clamping.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
@@ -27,12 +28,6 @@ host::DeviceOptions limited_to(std::uint64_t largest_binding, bool without_texel
     return options;
 }
 
-void require_equal(const LockstepResult& result) {
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
-}
-
 // Compares `steps` steps of a scene with initial contacts. Returns the number of contacts in the first step.
 std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int steps) {
     Lockstep lockstep(scene, {}, watched.device, 1);
@@ -40,7 +35,7 @@ std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int st
     std::uint32_t contacts = 0;
     for (int step = 0; step < steps; ++step) {
         lockstep.step();
-        require_equal(lockstep.result());
+        tests::require_equal(lockstep.result());
         lockstep.device().read(Table::counts, std::as_writable_bytes(std::span(counts)));
         if (step == 0) contacts = counts[0].contacts;
         REQUIRE(counts[0].steps == static_cast<std::uint32_t>(step + 1));
@@ -62,7 +57,7 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
         REQUIRE(lockstep.device().reach() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
         for (int step = 0; step < 10; ++step) {
             lockstep.step();
-            require_equal(lockstep.result());
+            tests::require_equal(lockstep.result());
         }
         REQUIRE(lockstep.device().reach() == host::Reach::far);
     }
@@ -102,7 +97,7 @@ TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 s
         CAPTURE(substeps);
         Settings settings;
         settings.substeps = substeps;
-        require_equal(compare_in_lockstep(tests::heap(100), settings, watched.device, 2, 60));
+        tests::require_equal(compare_in_lockstep(tests::heap(100), settings, watched.device, 2, 60));
     }
 }
 
@@ -110,7 +105,7 @@ TEST_CASE("both processors stay alike where no body sleeps: what no stage writes
     const Watched watched;
     Settings awake;
     awake.sleeping = false;
-    require_equal(compare_in_lockstep(tests::packed(60), awake, watched.device, 1, 3));
+    tests::require_equal(compare_in_lockstep(tests::packed(60), awake, watched.device, 1, 3));
 }
 
 TEST_CASE("every stage gives the same bits on both processors whatever contacts of the scene there cannot be",
@@ -181,7 +176,7 @@ TEST_CASE("the contacts of a plate under few balls and thousands are put in one 
             std::shuffle(rows.begin(), rows.end(), std::mt19937(5));
             if (reorders) lockstep.change([&](State& state) { state.reorder(rows, Threads(2)); });
             lockstep.step();
-            require_equal(lockstep.result());
+            tests::require_equal(lockstep.result());
         }
     }
 }
@@ -266,7 +261,7 @@ TEST_CASE("both processors stop fast bodies alike", "[process:stages]") {
         int stopped = 0;
         for (int step = 0; step < 30; ++step) {
             lockstep.step();
-            require_equal(lockstep.result());
+            tests::require_equal(lockstep.result());
             lockstep.device().read(Table::bounds, std::as_writable_bytes(std::span(bounds)));
             for (const physics::Bounds& around : bounds) stopped += physics::stop_of(around.sweep) < 1;
         }
@@ -280,7 +275,7 @@ TEST_CASE("both processors grow their buffers alike", "[process:stages]") {
     tiny.pairs_at_first = 1;
     tiny.contacts_at_first = 1;
     const Scene scene = tests::heap(150);
-    require_equal(compare_in_lockstep(scene, tiny, watched.device, 1, 60));
+    tests::require_equal(compare_in_lockstep(scene, tiny, watched.device, 1, 60));
 
     World roomy(scene, {}, 1);
     World cramped(scene, tiny, make_device_runner(watched.device));

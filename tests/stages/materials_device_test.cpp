@@ -5,6 +5,7 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/belts.h"
 #include "tests/world/coarse.h"
@@ -16,10 +17,7 @@ TEST_CASE("every stage gives the same bits on both processors for materials, sen
           "[vulkan][process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(tests::belts(60), tests::coarse(), device, 1, 90);
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(compare_in_lockstep(tests::belts(60), tests::coarse(), device, 1, 90));
 }
 
 TEST_CASE("every stage gives the same bits on both processors in wind and water", "[vulkan][process:kinds]") {
@@ -29,10 +27,7 @@ TEST_CASE("every stage gives the same bits on both processors in wind and water"
     scene.fields = {.wind = Wind{.velocity = {4, 0, 1}},
                     .water = Water{.offset = 0.4f, .velocity = {0.3f, 0, 0}},
                     .attractors = {{.position = {0, 3, 0}, .strength = 20}}};
-    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), device, 1, 60);
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(compare_in_lockstep(scene, tests::coarse(), device, 1, 60));
 }
 
 TEST_CASE("a device gives the bits and the events of the CPU while materials change and kinematic bodies move to targets",

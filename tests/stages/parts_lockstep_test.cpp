@@ -6,6 +6,7 @@
 #include "compute/compile/state_editor.h"
 #include "compute/device/lockstep.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/feet.h"
@@ -69,11 +70,8 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     Lockstep lockstep(scene, tests::coarse(), device, 1);
     const auto go = [&](int steps) {
         for (int step = 0; step < steps; ++step) {
-            const bool equal = lockstep.step();
-            const LockstepResult& result = lockstep.result();
-            INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                         << result.detail);
-            REQUIRE(equal);
+            lockstep.step();
+            tests::require_equal(lockstep.result());
         }
     };
     go(40);
@@ -91,17 +89,11 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
 TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields", "[process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(rain_on_hills(), tests::coarse(), device, 1, 60);
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(compare_in_lockstep(rain_on_hills(), tests::coarse(), device, 1, 60));
 }
 
 TEST_CASE("bodies in several contacts with another give the same bits on both processors in every stage", "[process:kinds]") {
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
-    const LockstepResult result = compare_in_lockstep(tests::what_has_feet(7), tests::coarse(), device, 1, 30);
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    REQUIRE(result.equal);
+    tests::require_equal(compare_in_lockstep(tests::what_has_feet(7), tests::coarse(), device, 1, 30));
 }

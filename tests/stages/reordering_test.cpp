@@ -11,6 +11,7 @@
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
@@ -45,12 +46,9 @@ std::size_t check_shuffled(const Scene& given, int steps, const Settings& settin
             shaken.change([&](State& state) { state.reorder(rows, Threads(2)); });
         }
         shaken.step();
-        const LockstepResult& result = shaken.result();
-        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                     << result.detail);
-        REQUIRE(result.equal);
+        tests::require_equal(shaken.result());
         plain.step();
-        REQUIRE(result.hash == plain.state_hash());
+        REQUIRE(shaken.result().hash == plain.state_hash());
         asleep = std::max(asleep, plain.statistics().asleep);
     }
     return asleep;

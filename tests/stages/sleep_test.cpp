@@ -9,6 +9,7 @@
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "shaders/physics/sleep/sleep.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
@@ -57,10 +58,7 @@ Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, 
     Seen seen;
     for (int step = 0; step < steps; ++step) {
         lockstep.step();
-        const LockstepResult& result = lockstep.result();
-        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                     << result.detail);
-        REQUIRE(result.equal);
+        tests::require_equal(lockstep.result());
         lockstep.device().read(Table::sleep_states, std::as_writable_bytes(std::span(sleep_states)));
         std::size_t asleep = 0;
         for (std::size_t i = 0; i < sleep_states.size(); ++i) {

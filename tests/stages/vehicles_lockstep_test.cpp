@@ -6,6 +6,7 @@
 #include "compute/vehicle_presets.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
+#include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
 #include "tests/world/coarse.h"
 
@@ -32,10 +33,7 @@ TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep gi
     settings.pairs_at_first = 40;  // so that the first step overflows and is repeated
     Lockstep lockstep(scene, settings, device, 2);
     for (int i = 0; i < 60 && lockstep.step(); ++i) continue;
-    const LockstepResult& result = lockstep.result();
-    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                 << result.detail);
-    CHECK(result.equal);
+    tests::require_equal(lockstep.result());
 }
 
 TEST_CASE("a brake that is let go and pulled again gives the same bits on both processors", "[process:kinds]") {

@@ -16,13 +16,6 @@ Body some_body(int i, float size, Noise& noise) {
     return body;
 }
 
-Body ground() {
-    Body body;
-    body.motion = Motion::fixed;
-    body.shape = Plane{};
-    return body;
-}
-
 // A sphere, capsule or box of extent 2 * half in every direction.
 Body even_body(int i, float half) {
     Body body;
@@ -33,6 +26,13 @@ Body even_body(int i, float half) {
 }
 
 }  // namespace
+
+Body ground() {
+    Body body;
+    body.motion = Motion::fixed;
+    body.shape = Plane{};
+    return body;
+}
 
 Scene heap(int count, std::uint32_t seed) {
     Noise noise(seed);

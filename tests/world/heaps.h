@@ -24,6 +24,9 @@ private:
     std::uint32_t state_;
 };
 
+// A plane through the origin.
+Body ground();
+
 // `count` spheres, capsules and boxes of several sizes and materials above a plane, not touching; some have
 // restitution, some rolling resistance.
 Scene heap(int count, std::uint32_t seed = 1);

@@ -7,21 +7,11 @@
 #include "tests/world/heaps.h"
 
 using namespace scree;
+using tests::ground;
 
 namespace {
 
-Settings awake() {
-    Settings settings;
-    settings.sleeping = false;
-    return settings;
-}
-
-Body ground() {
-    Body body;
-    body.motion = Motion::fixed;
-    body.shape = Plane{};
-    return body;
-}
+const Settings awake{.sleeping = false};
 
 // Boxes of about `size` (m) that fall into a heap from a lattice.
 Scene heap_of_boxes(int count, float size) {
@@ -74,7 +64,7 @@ Motionlessness at_rest_after(World& world, int steps) {
 TEST_CASE("a heap of 1 cm has hardly more contacts than one of 1 m") {
     double manifolds[2];
     for (const bool small : {false, true}) {
-        World world(heap_of_boxes(64, small ? 0.01f : 1), awake(), 1);
+        World world(heap_of_boxes(64, small ? 0.01f : 1), awake, 1);
         world.step(360);
         manifolds[small] = static_cast<double>(world.statistics().manifolds);
     }
@@ -92,7 +82,7 @@ TEST_CASE("bodies that lie side by side have no contact, small or large") {
             body.position = vec3(1.06f * size * static_cast<float>(i), 0.5f * size, 0);
             scene.bodies.push_back(body);
         }
-        World world(scene, awake(), 1);
+        World world(scene, awake, 1);
         world.step(60);
         CAPTURE(size);
         CHECK(world.statistics().manifolds == 5);
@@ -102,7 +92,7 @@ TEST_CASE("bodies that lie side by side have no contact, small or large") {
 TEST_CASE("a column of ten boxes of 2 cm and one of five boxes of 1 cm stand") {
     for (const bool smaller : {false, true}) {
         const float size = smaller ? 0.01f : 0.02f;
-        World world(stack_of(Box{vec3(0.5f * size)}, smaller ? 5 : 10, size, 0.004f * size), awake(), 1);
+        World world(stack_of(Box{vec3(0.5f * size)}, smaller ? 5 : 10, size, 0.004f * size), awake, 1);
         const Motionlessness most = at_rest_after(world, 600);
         CAPTURE(size);
         CHECK(world.statistics().drift_max < 0.5 * static_cast<double>(size));
@@ -113,7 +103,7 @@ TEST_CASE("a column of ten boxes of 2 cm and one of five boxes of 1 cm stand") {
 
 TEST_CASE("ten coins come to rest, of 1 m and of 10 cm") {
     for (const float radius : {0.5f, 0.05f}) {
-        World world(stack_of(Cylinder{radius, 0.1f * radius}, 10, 0.2f * radius, 0.02f * radius), awake(), 1);
+        World world(stack_of(Cylinder{radius, 0.1f * radius}, 10, 0.2f * radius, 0.02f * radius), awake, 1);
         const Motionlessness most = at_rest_after(world, 900);
         CAPTURE(radius);
         CHECK(most.speed < 0.005);
@@ -140,7 +130,7 @@ TEST_CASE("plates across each other come to rest, boxes and hulls") {
                     body.position = vec3(0, half.y + (2.02f * half.y + 0.001f * size) * static_cast<float>(i), 0);
                     scene.bodies.push_back(body);
                 }
-                World world(scene, awake(), 1);
+                World world(scene, awake, 1);
                 const Motionlessness most = at_rest_after(world, 300);
                 CAPTURE(hull, yaw, size);
                 CHECK(most.speed < 0.005);  // 0.4 to 1 where their edges touched instead of their faces
@@ -171,7 +161,7 @@ TEST_CASE("heaps of thrown plates, prisms and rods come to rest") {
                 body.position = vec3(i % 3, 0.8f + static_cast<float>(i / 9), i / 3 % 3) * (1.3f * size);
                 scene.bodies.push_back(body);
             }
-            World world(scene, awake(), 1);
+            World world(scene, awake, 1);
             const Motionlessness most = at_rest_after(world, 2340);
             CAPTURE(kind, size);
             CHECK(most.speed < 0.005);
@@ -190,7 +180,7 @@ TEST_CASE("a cylinder that wobbles round its rim comes to rest") {
     body.orientation = glm::normalize(vec4(0.06f, 0, 0, 1));
     body.angular_velocity = {0, 0, 2};
     scene.bodies.push_back(body);
-    World world(scene, awake(), 1);
+    World world(scene, awake, 1);
     const Motionlessness most = at_rest_after(world, 420);
     CHECK(most.speed < 0.005);
     CHECK(most.spin < 0.01);
@@ -205,7 +195,7 @@ TEST_CASE("steps in which a body rotates at the limit are counted") {
         body.angular_velocity = {0, spin, 0};
         scene.bodies.push_back(body);
     }
-    World world(scene, awake(), 1);
+    World world(scene, awake, 1);
     world.step(10);
     const Statistics statistics = world.statistics();
     CHECK(statistics.spin_limited == 10);  // 0.785 rad in a substep of 1/720 s: 565 rad/s

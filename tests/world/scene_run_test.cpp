@@ -7,6 +7,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_file/scene_schema.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -26,12 +27,7 @@ std::string scene_with(const std::string& more) {
 }
 
 std::string refusal(const std::string& more) {
-    try {
-        scene_from_json(scene_with(more));
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { scene_from_json(scene_with(more)); });
 }
 
 // Runs a scene's events for some steps.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "compute/scene_file/import/gltf_physics.h"
+#include "compute/scene_file/import/gltf/gltf_physics.h"
 #include "compute/scene_file/import/mesh_scene.h"
-#include "compute/scene_file/import/mjcf.h"
-#include "compute/scene_file/import/urdf.h"
+#include "compute/scene_file/import/mjcf/mjcf.h"
+#include "compute/scene_file/import/urdf/urdf.h"
 #include "compute/scene_file/import/usd/usd_scene.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-// Colours between linear light and sRGB.
+// Colours of linear light as sRGB.
 #include "compute/scene_file/import/srgb.h"
 
 #include <algorithm>
@@ -13,14 +13,6 @@ glm::vec3 srgb_of(glm::vec3 linear) {
         linear[k] = x <= 0.0031308f ? 12.92f * x : 1.055f * portable::pow(x, 1.0f / 2.4f) - 0.055f;
     }
     return linear;
-}
-
-glm::vec3 linear_of(glm::vec3 srgb) {
-    for (int k = 0; k < 3; ++k) {
-        const float x = std::clamp(srgb[k], 0.0f, 1.0f);
-        srgb[k] = x <= 0.04045f ? x / 12.92f : portable::pow((x + 0.055f) / 1.055f, 2.4f);
-    }
-    return srgb;
 }
 
 }  // namespace scree::imports

@@ -7,7 +7,5 @@ namespace scree::imports {
 
 // Encodes linear light, IEC 61966-2-1; between 0 and 1.
 glm::vec3 srgb_of(glm::vec3 linear);
-// The other way round.
-glm::vec3 linear_of(glm::vec3 srgb);
 
 }  // namespace scree::imports

@@ -61,68 +61,66 @@ private:
     bool done_ = false;
 };
 
+// A result of each ray: that of the runner's device where it takes rays, else, and where the device leaves one, of the host.
+// `from_device` makes what tells the device's results, `from_host` tells one.
+template <class Result>
+std::vector<Result> results_of(std::span<const RayQuery> rays, RayTask::Hits wanted, const auto& world, const auto& from_device,
+                               const auto& from_host) {
+    const Threads& threads = world.runner->threads();
+    std::vector<Result> results(rays.size());
+    if (world.runner->casts(rays.size())) {
+        const DeviceRays there(*world.runner, rays, wanted, {world.steps, world.changes});
+        if (there.done()) {
+            const auto told = from_device(there);
+            threads.for_each(rays.size(), [&](std::size_t i) { results[i] = told(i); });
+            for (const std::uint32_t i : there.task().left) results[i] = from_host(world.query_scene(), rays[i]);
+            return results;
+        }
+    }
+    const QueryScene& bodies = world.query_scene();
+    threads.for_each(rays.size(), [&](std::size_t i) { results[i] = from_host(bodies, rays[i]); });
+    return results;
+}
+
 }  // namespace
 
 std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
     const Impl& in = whole();
-    const Threads& threads = in.runner->threads();
-    std::vector<std::optional<QueryHit>> hits(rays.size());
-    if (in.runner->casts(rays.size())) {
-        const DeviceRays there(*in.runner, rays, RayTask::Hits::nearest, {in.steps, in.changes});
-        if (there.done()) {
-            const std::vector<std::size_t> first_parts = first_part_rows();
-            threads.for_each(rays.size(),
-                             [&](std::size_t i) { hits[i] = there.hit(i, there.task().meetings[i], in.state, first_parts); });
-            for (const std::uint32_t i : there.task().left) hits[i] = in.query_scene().nearest(rays[i], false);
-            return hits;
-        }
-    }
-    const QueryScene& bodies = in.query_scene();
-    threads.for_each(rays.size(), [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], false); });
-    return hits;
+    return results_of<std::optional<QueryHit>>(
+        rays, RayTask::Hits::nearest, in,
+        [&](const DeviceRays& there) {
+            return [&, first_parts = first_part_rows()](std::size_t i) {
+                return there.hit(i, there.task().meetings[i], in.state, first_parts);
+            };
+        },
+        [](const QueryScene& bodies, const RayQuery& ray) { return bodies.nearest(ray, false); });
 }
 
 std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
-    const Impl& in = whole();
-    const Threads& threads = in.runner->threads();
-    std::vector<std::uint8_t> hits(rays.size());
-    if (in.runner->casts(rays.size())) {
-        const DeviceRays there(*in.runner, rays, RayTask::Hits::any, {in.steps, in.changes});
-        if (there.done()) {
-            for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = there.task().meetings[i].distance >= 0;
-            for (const std::uint32_t i : there.task().left) hits[i] = in.query_scene().nearest(rays[i], true).has_value();
-            return hits;
-        }
-    }
-    const QueryScene& bodies = in.query_scene();
-    threads.for_each(rays.size(), [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], true).has_value(); });
-    return hits;
+    return results_of<std::uint8_t>(
+        rays, RayTask::Hits::any, whole(),
+        [](const DeviceRays& there) { return [&](std::size_t i) { return there.task().meetings[i].distance >= 0; }; },
+        [](const QueryScene& bodies, const RayQuery& ray) { return bodies.nearest(ray, true).has_value(); });
 }
 
 QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
     check_rays(rays, copies());
     const Impl& in = whole();
-    const Threads& threads = in.runner->threads();
-    std::vector<std::vector<QueryHit>> lists(rays.size());
-    if (in.runner->casts(rays.size())) {
-        const DeviceRays there(*in.runner, rays, RayTask::Hits::all, {in.steps, in.changes});
-        if (there.done()) {
-            const std::vector<std::size_t> first_parts = first_part_rows();
-            const RayTask& task = there.task();
-            threads.for_each(rays.size(), [&](std::size_t i) {
+    return joined_lists(results_of<std::vector<QueryHit>>(
+        rays, RayTask::Hits::all, in,
+        [&](const DeviceRays& there) {
+            return [&, first_parts = first_part_rows()](std::size_t i) {
+                const RayTask& task = there.task();
+                std::vector<QueryHit> list;
                 for (std::size_t k = task.starts[i]; k < task.starts[i + 1]; ++k)
-                    lists[i].push_back(*there.hit(i, task.meetings[k], in.state, first_parts));
-                std::sort(lists[i].begin(), lists[i].end(), QueryScene::nearer);
-            });
-            for (const std::uint32_t i : task.left) lists[i] = in.query_scene().all(rays[i]);
-            return joined_lists(std::move(lists));
-        }
-    }
-    const QueryScene& bodies = in.query_scene();
-    threads.for_each(rays.size(), [&](std::size_t i) { lists[i] = bodies.all(rays[i]); });
-    return joined_lists(std::move(lists));
+                    list.push_back(*there.hit(i, task.meetings[k], in.state, first_parts));
+                std::sort(list.begin(), list.end(), QueryScene::nearer);
+                return list;
+            };
+        },
+        [](const QueryScene& bodies, const RayQuery& ray) { return bodies.all(ray); }));
 }
 
 std::optional<RayHit> World::cast_ray(const Ray& ray) const {

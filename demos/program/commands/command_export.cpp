@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compute/scene_file/scene_schema.h"
-#include "demos/film/usd_scene.h"
+#include "demos/film/export/usd_scene.h"
 #include "demos/program/commands/commands.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"

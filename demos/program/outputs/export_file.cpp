@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "compute/scene_file/import/import_scene.h"
-#include "demos/film/glb_writer.h"
-#include "demos/film/usd_layer_writer.h"
-#include "demos/film/usd_writer.h"
+#include "demos/film/export/glb_writer.h"
+#include "demos/film/export/usd_layer_writer.h"
+#include "demos/film/export/usd_writer.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/options/output_check.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "compute/scene_file/import/import_options.h"
-#include "demos/film/animation.h"
+#include "demos/film/export/animation.h"
 
 namespace CLI {
 class App;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "compute/scene_file/measures_json.h"
+#include "demos/film/export/vtk_folder.h"
 #include "demos/film/measure_columns.h"
-#include "demos/film/vtk_folder.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/options/output_check.h"
 #include "demos/program/outputs/table.h"

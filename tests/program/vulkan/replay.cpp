@@ -7,6 +7,7 @@ using scree::program::Outcome;
 using scree::program::Place;
 using scree::program::run_scree;
 using scree::program::says;
+using scree::program::state_hash_in;
 
 namespace {
 
@@ -16,11 +17,6 @@ std::string recording(const std::string& rest) {
  {"step": 4, "grab": {"grip": 0, "body": 3, "anchor": [0.1, 0.2, 0.3], "target": [2, 4, 1]}},
  {"step": 9, "turn": {"gravity": [0, -3, 0], "substeps": 5}},
  {"step": 15, "release": {"grip": 0}}]})";
-}
-
-std::string hash_in(const std::string& report) {
-    const auto at = report.find("\"state_hash\": \"");
-    return at == report.npos ? "" : report.substr(at + 15, 16);
 }
 
 }  // namespace
@@ -34,9 +30,9 @@ TEST_CASE("a recording plays to the same state on both processors, and is held t
         INFO(outcome.errors);
         REQUIRE(outcome.status == 0);
         REQUIRE(says(outcome.output, "\"bodies\": 12"));
-        if (hash.empty()) hash = hash_in(outcome.output);
+        if (hash.empty()) hash = state_hash_in(outcome.output);
         REQUIRE(hash.size() == 16);
-        REQUIRE(hash_in(outcome.output) == hash);
+        REQUIRE(state_hash_in(outcome.output) == hash);
     }
     const std::string held = place.write("held.json", recording("\"end_hash\": \"" + hash + "\","));
     REQUIRE(run_scree("run --quiet --backend cpu --input '" + held + "'").status == 0);

@@ -6,6 +6,7 @@
 
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 #include "tests/world/belts.h"
 
 using namespace scree;
@@ -151,14 +152,7 @@ TEST_CASE("fields are kept in scene files, checkpoints and snapshots, and bad on
     world.step(300), other.step(300);
     CHECK(other.state_hash() == world.state_hash());
     CHECK(world.body(1).position.y > 0.9f);
-    const auto refused = [&](const Fields& fields) {
-        try {
-            world.set_fields(fields);
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
+    const auto refused = [&](const Fields& fields) { return tests::refusal_of([&] { world.set_fields(fields); }); };
     using Catch::Contains;
     CHECK_THAT(refused({.water = Water{.normal = vec3(0)}}), Contains("/fields/water/normal"));
     CHECK_THAT(refused({.water = Water{.density = -1}}), Contains("/fields/water/density"));

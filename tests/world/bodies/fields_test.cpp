@@ -11,6 +11,7 @@
 #include "compute/scene_file/scene_schema.h"
 #include "compute/vehicle_presets.h"
 #include "tests/house/tree.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 using nlohmann::json;
@@ -23,15 +24,6 @@ struct Lamp {
 };
 
 const json_reading::Place root{nullptr, nullptr, 0};
-
-std::string refusal(const auto& work) {
-    try {
-        work();
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 Scene brick() {
     Scene scene;
@@ -103,9 +95,10 @@ TEST_CASE("fields: a property is a member and a line, from which it is read, wri
     };
     CHECK(read("{}") == 5);
     CHECK(read(R"({"brightness": 7})") == 7);
-    CHECK(refusal([&] { read(R"({"brightness": 11})"); }) == "/lamp/brightness: must be between 0 and 10 lx, is 11");
-    CHECK(refusal([&] { read(R"({"brightness": "much"})"); }) == "/lamp/brightness: must be a number, is the string \"much\"");
-    CHECK(refusal([&] { read(R"({"brigtness": 1})"); }) ==
+    CHECK(tests::refusal_of([&] { read(R"({"brightness": 11})"); }) == "/lamp/brightness: must be between 0 and 10 lx, is 11");
+    CHECK(tests::refusal_of([&] { read(R"({"brightness": "much"})"); }) ==
+          "/lamp/brightness: must be a number, is the string \"much\"");
+    CHECK(tests::refusal_of([&] { read(R"({"brigtness": 1})"); }) ==
           "/lamp/brigtness: unknown key \"brigtness\"; nearest: \"brightness\"; known: brightness");
     const auto written = [](float brightness) {
         Text text;
@@ -114,7 +107,7 @@ TEST_CASE("fields: a property is a member and a line, from which it is read, wri
     };
     CHECK(written(5) == "{}");
     CHECK(written(0.1f) == R"({"brightness": 0.1})");
-    CHECK(refusal([&] { written(std::nanf("")); }).find("not finite") != std::string::npos);
+    CHECK(tests::refusal_of([&] { written(std::nanf("")); }).find("not finite") != std::string::npos);
 }
 
 TEST_CASE("fields: the host code names a body's property in its table alone", "[house]") {
@@ -147,7 +140,7 @@ TEST_CASE("fields: the schema has the ranges and defaults of the table, which a 
             const auto said = [&](float value) {
                 Scene scene = brick();
                 scene.bodies[0].*field.member = value;
-                return refusal([&] { checked(scene); });
+                return tests::refusal_of([&] { checked(scene); });
             };
             const std::string place = "/bodies/0/" + std::string(field.key) + ": must be ";
             for (const float wrong : {std::nextafter(static_cast<float>(field.range.high), HUGE_VALF),
@@ -178,7 +171,7 @@ TEST_CASE("fields: a joint's unit is that of its axis", "[scene]") {
         Scene scene = brick();
         scene.joints.emplace_back().kind = kind;
         scene.joints[0].b = 0;
-        return refusal([&] { checked(scene); });
+        return tests::refusal_of([&] { checked(scene); });
     };
     Axis axis;
     axis.friction = -1;

@@ -12,6 +12,7 @@
 #include "compute/plan/plan.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 #include "tests/world/coarse.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
@@ -292,12 +293,8 @@ TEST_CASE("scene files keep cohesion, and refuse what is none by its place") {
     CHECK(scene.bodies[3].cohesion == 0.5f);
     CHECK(scene_to_json(scene_from_json(scene_to_json(scene)).scene) == scene_to_json(scene));
     const auto refused = [](const std::string& keys) {
-        try {
-            checked(scene_from_json(R"({"bodies": [{"shape": {"sphere": {"radius": 1}}, )" + keys + "}]}").scene);
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return tests::refusal_of(
+            [&] { checked(scene_from_json(R"({"bodies": [{"shape": {"sphere": {"radius": 1}}, )" + keys + "}]}").scene); });
     };
     using Catch::Contains;
     CHECK_THAT(refused(R"("cohesion": -1)"), Contains("/bodies/0/cohesion: must be between 0 and"));

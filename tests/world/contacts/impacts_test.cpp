@@ -34,11 +34,7 @@ double energy(const Scene& scene, const World& world, float lowest = 0) {
     }
     return sum;
 }
-Settings awake() {
-    Settings settings;
-    settings.sleeping = false;
-    return settings;
-}
+const Settings awake{.sleeping = false};
 
 }  // namespace
 
@@ -51,7 +47,7 @@ TEST_CASE("two balls that meet off centre keep their energy at any speed") {
                 const float way = 1 + speed / 60 * static_cast<float>(phase) / 4;
                 scene.bodies = {ball(0.3f, {-way, 0, 0}, {speed, 0, 0}), ball(0.3f, {0, offset * 0.3f, 0.1f})};
                 if (phase % 2) scene.bodies[1].shape = Capsule{0.3f, 0.4f};
-                World world(scene, awake(), 1);
+                World world(scene, awake, 1);
                 const double before = energy(scene, world);
                 world.step(30);
                 CAPTURE(speed, offset, phase);
@@ -77,7 +73,7 @@ TEST_CASE("three balls that meet within one substep keep their energy and moment
                 scene.bodies.push_back(ball(0.2f, at + 0.4f * normal - towards * (speed * 0.04f), towards * speed));
             }
         }
-        World world(scene, awake(), 1);
+        World world(scene, awake, 1);
         const std::vector<BodyState> before = world.bodies();
         world.step(15);
         const std::vector<BodyState> after = world.bodies();
@@ -117,7 +113,7 @@ TEST_CASE("a gas of elastic balls keeps its energy at any speed") {
                 wall.friction = 0;
                 scene.bodies.push_back(wall);
             }
-        World world(scene, awake(), 2);
+        World world(scene, awake, 2);
         const double before = energy(scene, world);
         world.step(600);
         CAPTURE(speed);
@@ -140,7 +136,7 @@ TEST_CASE("a touching row of balls on the ground passes on a blow at any speed")
                     const float x = static_cast<float>(i) * (2 + gap) - (i == 0 ? 1.0f : 0);
                     scene.bodies.push_back(ball(radius, radius * vec3(x, 1, 0), {i == 0 ? speed : 0, 0, 0}));
                 }
-                World world(scene, awake(), 1);
+                World world(scene, awake, 1);
                 world.step(60);
                 const std::vector<BodyState> now = world.bodies();
                 CAPTURE(radius, speed, gap);
@@ -164,7 +160,7 @@ TEST_CASE("a cradle on rods keeps its energy over a swing") {
                 rod.anchor_a = peg;
                 scene.joints.push_back(rod);
             }
-            World world(scene, awake(), 1);
+            World world(scene, awake, 1);
             const double before = energy(scene, world, -1);
             world.step(120);
             CAPTURE(angle, yaw);
@@ -187,7 +183,7 @@ TEST_CASE("welded balls bounce like one body, flat and on end") {
         weld.anchor_a = 0.25f * axis;
         weld.anchor_b = -weld.anchor_a;
         scene.joints = {weld};
-        World world(scene, awake(), 1);
+        World world(scene, awake, 1);
         float highest = 0;
         for (int step = 0; step < 60; ++step) {
             world.step();
@@ -247,7 +243,7 @@ TEST_CASE("welded balls leave a blow as the rigid body does that they are, whate
                         const double leaves = impulse / mass - double{speed}, spins = impulse * arm / inertia;
                         const double brought = 0.5 * mass * double{speed} * double{speed};
 
-                        World world(scene, awake(), 1);
+                        World world(scene, awake, 1);
                         while (world.bodies()[1].velocity.y < -0.999f * speed && world.steps() < 60) world.step();
                         world.step();
                         double along = 0;
@@ -277,7 +273,7 @@ TEST_CASE("an upright pair of welded balls rises to e^2 of its fall") {
             weld.anchor_a = {0, 0.25f, 0};
             weld.anchor_b = {0, -0.25f, 0};
             scene.joints = {weld};
-            World world(scene, awake(), 1);
+            World world(scene, awake, 1);
             const int lands = static_cast<int>(std::sqrt(2 * height / 9.81f) * 60) + 3;
             const int falls = static_cast<int>(2.5f * e * std::sqrt(2 * height / 9.81f) * 60) + 3;
             world.step(lands);
@@ -309,7 +305,7 @@ TEST_CASE("a kinematic plate leaves nothing behind, be it thin or thick") {
                         ball(0.1f, {0.1f * static_cast<float>(i % 2), 0.1f, 0.5f * static_cast<float>(i) - 1}));
                     scene.bodies.back().restitution = 0;
                 }
-                World world(scene, awake(), 1);
+                World world(scene, awake, 1);
                 world.step(20 + static_cast<int>(60 / speed));
                 const std::vector<BodyState> now = world.bodies();
                 CAPTURE(speed, half, phase);
@@ -352,7 +348,7 @@ TEST_CASE("what falls upon a light body that lies on several others gains no ene
         box.density = 2600;
         scene.bodies.push_back(dumbbell);
         scene.bodies.push_back(box);
-        World world(scene, awake(), 1);
+        World world(scene, awake, 1);
         const double before = world.statistics().kinetic_energy;
         double most = 0;
         for (int step = 0; step < 20; ++step) {
@@ -398,7 +394,7 @@ TEST_CASE("a ball that strikes a floor at a slant takes the spin that Coulomb fr
                             scene.bodies = {ground, body};
                             if (blows++ % 2) std::swap(scene.bodies[0], scene.bodies[1]);
                             const std::size_t flying = blows % 2 ? 1 : 0;
-                            World world(scene, awake(), 1);
+                            World world(scene, awake, 1);
                             for (int step = 0; step < 120 && world.body(flying).velocity.y < -0.5f * down; ++step) world.step();
                             world.step(2);
                             const float slip = along - top_spin * speed;

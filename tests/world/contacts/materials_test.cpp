@@ -11,6 +11,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 #include "tests/world/belts.h"
 #include "tests/world/late_restitution.h"
 
@@ -223,12 +224,8 @@ TEST_CASE("scene files keep materials, and refuse bad ones by their place") {
     CHECK(std::get<Compound>(body.shape).parts[0].material->friction_rule == CombineRule::maximum);
     CHECK(scene_to_json(scene_from_json(scene_to_json(scene)).scene) == scene_to_json(scene));
     const auto refused = [](const std::string& body_keys) {
-        try {
-            checked(scene_from_json(R"({"bodies": [{"motion": "fixed", )" + body_keys + "}]}").scene);
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return tests::refusal_of(
+            [&] { checked(scene_from_json(R"({"bodies": [{"motion": "fixed", )" + body_keys + "}]}").scene); });
     };
     using Catch::Contains;
     const std::string ball = R"("shape": {"sphere": {"radius": 1}}, )";

@@ -8,21 +8,19 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/tables/state.h"
+#include "tests/world/heaps.h"
 
 using namespace scree;
+using tests::ground;
 
 namespace {
 
-Settings awake() {
-    Settings settings;
-    settings.sleeping = false;  // sleeping bodies keep every manifold
-    return settings;
-}
+const Settings awake{.sleeping = false};  // sleeping bodies keep every manifold
 
 // A scene stepped on the CPU with access to its tables, sleep off.
 class Walk {
 public:
-    explicit Walk(const Scene& scene) : state(checked(scene), awake(), 64, true), runner_(1) { runner_.attach(state); }
+    explicit Walk(const Scene& scene) : state(checked(scene), awake, 64, true), runner_(1) { runner_.attach(state); }
     void step(int count = 1) {
         for (int i = 0; i < count; ++i) {
             REQUIRE(runner_.step());
@@ -62,12 +60,6 @@ private:
     std::map<Ends, Manifold> manifolds_;
 };
 
-Body ground() {
-    Body body;
-    body.motion = Motion::fixed;
-    body.shape = Plane{};
-    return body;
-}
 Body resting(Shape shape, float height, vec3 where = vec3(0)) {
     Body body;
     body.shape = shape;

@@ -10,6 +10,7 @@
 #include "compute/grains.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -61,12 +62,7 @@ double measured_passing(const std::vector<Body>& bodies, double size) {
 }
 
 std::string refusal(const Grains& grains) {
-    try {
-        placed(GrainSupply(grains, "/grains/3"));
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { placed(GrainSupply(grains, "/grains/3")); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_file/scene_schema.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tests/world/rain.h"
 
@@ -38,12 +39,9 @@ There poured_into(const World& world, const std::string& name) {
 }
 
 std::string refusal(const std::string& grains, const std::string& more = "") {
-    try {
+    return tests::refusal_of([&] {
         scene_from_json(R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}}], "grains": [)" + grains + "]" + more + "}");
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 }  // namespace

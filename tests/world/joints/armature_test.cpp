@@ -7,8 +7,11 @@
 
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/world/joints/joint_scenes.h"
 
 using namespace scree;
+using tests::energy;
+using tests::slider;
 
 namespace {
 
@@ -27,22 +30,6 @@ Scene pendulum(const Axis& axis, float arm, float angle = 0) {
     scene.bodies[0].position = {arm * std::sin(angle), -arm * std::cos(angle), 0};
     scene.bodies[0].orientation = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
     return scene;
-}
-
-Scene slider(const Axis& axis, float mass) {
-    Scene scene;
-    scene.gravity = vec3(0);
-    Body body;
-    body.shape = Box{vec3(0.1f)};
-    body.inertial = Inertial{.mass = mass, .inertia = vec3(0.1f)};
-    scene.bodies.push_back(body);
-    scene.joints.push_back(joint_at(scene, Slider{axis}, the_world, 0, vec3(0)));
-    return scene;
-}
-
-double energy(const World& world) {
-    const Statistics s = world.statistics();
-    return s.kinetic_energy + s.potential_energy;
 }
 
 // Two links with a rotor each, about z: angles from straight down, rates. Link: mass, inertia about its centre, its

@@ -5,17 +5,13 @@
 
 #include "compute/world.h"
 #include "shaders/physics/base/arithmetic.h"
+#include "tests/world/heaps.h"
 
 using namespace scree;
+using tests::ground;
 
 namespace {
 
-Body ground() {
-    Body body;
-    body.motion = Motion::fixed;
-    body.shape = Plane{};
-    return body;
-}
 Body shaped(Shape shape, vec3 position) {
     Body body;
     body.shape = shape;

@@ -5,6 +5,7 @@
 
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -23,19 +24,10 @@ Scene hung(vec3 position, vec3 anchor, const JointKind& kind, vec3 axis = {0, 0,
     return scene;
 }
 
-Settings awake() {
-    Settings settings;
-    settings.sleeping = false;
-    return settings;
-}
+const Settings awake{.sleeping = false};
 
 std::string refusal(const Scene& scene) {
-    try {
-        checked(scene);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(scene); });
 }
 
 bool says(const std::string& text, const std::string& words) {
@@ -45,7 +37,7 @@ bool says(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE("a fixed joint carries the weight of what it holds, and its moment") {
-    World world(hung({0.5f, 0, 0}, {0, 0, 0}, Fixed{}), awake(), 1);
+    World world(hung({0.5f, 0, 0}, {0, 0, 0}, Fixed{}), awake, 1);
     world.step(120);
     const float weight = mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     const JointState joint = world.joint(0);
@@ -58,7 +50,7 @@ TEST_CASE("a fixed joint carries the weight of what it holds, and its moment") {
 TEST_CASE("a hinge stops at its limits") {
     Hinge hinge;
     hinge.turn.limits = Limits{-0.5f, 0.25f};
-    World world(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
+    World world(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake, 1);
     world.step(300);
     CHECK(world.joint(0).coordinates[twist] == Approx(-0.5f).margin(0.005));
     CHECK(glm::length(world.body(0).angular_velocity) < 0.01f);
@@ -68,7 +60,7 @@ TEST_CASE("a motor turns at its speed, and no harder than it may") {
     Hinge hinge;
     hinge.turn.motor = Motor{3, 1e5f};
     Scene scene = hung({0, 0, 0}, {0, 0, 0}, hinge);
-    World world(scene, awake(), 1);
+    World world(scene, awake, 1);
     world.step(60);
     CHECK(world.body(0).angular_velocity.z == Approx(3).epsilon(0.001));
     world.set_motor(0, JointAxis::twist, Motor{-2, 1e5f});
@@ -76,7 +68,7 @@ TEST_CASE("a motor turns at its speed, and no harder than it may") {
     CHECK(world.body(0).angular_velocity.z == Approx(-2).epsilon(0.001));
 
     hinge.turn.motor = Motor{100, 0.5f};
-    World weak(hung({0, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
+    World weak(hung({0, 0, 0}, {0, 0, 0}, hinge), awake, 1);
     weak.step(60);
     const float inertia = mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).inertia.z;
     CHECK(weak.body(0).angular_velocity.z == Approx(0.5f / inertia).epsilon(0.01));
@@ -92,7 +84,7 @@ TEST_CASE("a body on a spring swings with the period of theory and keeps its swi
     Scene scene = hung({0, 0, 0}, {0, 0, 0}, slider, {1, 0, 0});
     scene.gravity = vec3(0);
     scene.bodies[0].velocity = {1, 0, 0};
-    World world(scene, awake(), 1);
+    World world(scene, awake, 1);
     const double omega = std::sqrt(4000.0 / mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass);
     double farthest = 0;
     int turns = 0;
@@ -112,11 +104,11 @@ TEST_CASE("friction holds a hinge up to its torque") {
     const float weight = mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     Hinge hinge;
     hinge.turn.friction = 0.55f * weight;  // the weight's lever arm is half a metre
-    World holds(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
+    World holds(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake, 1);
     holds.step(120);
     CHECK(std::abs(holds.body(0).position.y) < 0.005f);
     hinge.turn.friction = 0.4f * weight;
-    World slips(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
+    World slips(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake, 1);
     slips.step(120);
     CHECK(slips.body(0).position.y < -0.1f);
 }
@@ -125,11 +117,11 @@ TEST_CASE("a joint tears above its force, and not below") {
     const float weight = mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     Scene scene = hung({0, -1, 0}, {0, 0, 0}, Ball{});
     scene.joints[0].break_force = 1.1f * weight;
-    World holds(scene, awake(), 1);
+    World holds(scene, awake, 1);
     holds.step(120);
     CHECK_FALSE(holds.joint(0).broken);
     scene.joints[0].break_force = 0.9f * weight;
-    World tears(scene, awake(), 1);
+    World tears(scene, awake, 1);
     tears.step(120);
     CHECK(tears.joint(0).broken);
     CHECK(tears.joint(0).max_force > 0.9f * weight);
@@ -153,7 +145,7 @@ TEST_CASE("a joint of a body that breaks tears, and what hung on it falls") {
     ball.position = {-1.5f, -0.3f, 0};
     ball.velocity = {10, 0, 0};
     scene.bodies.push_back(ball);
-    World world(scene, awake(), 1);
+    World world(scene, awake, 1);
     world.step(3);
     REQUIRE_FALSE(world.joint(0).broken);
     REQUIRE_FALSE(world.joint(1).broken);
@@ -178,7 +170,7 @@ TEST_CASE("joined bodies touch only if the joint says so") {
         }
         scene.joints.push_back(joint_between(scene, Distance{0, 10, {}}, 0, 1, vec3(0), {0.9f, 0, 0}));
         scene.joints[0].collide = collide;
-        World world(scene, awake(), 1);
+        World world(scene, awake, 1);
         world.step(60);
         CHECK((world.statistics().manifolds > 0 || world.body(1).position.x > 0.95f) == collide);
     }
@@ -282,12 +274,7 @@ TEST_CASE("a joint that a world cannot take is refused by name, and leaves no tr
     const auto refused = [&](std::size_t a, std::size_t b) -> std::string {
         joint.a = a;
         joint.b = b;
-        try {
-            world.add_joint(joint);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "taken";
+        return tests::refusal_of([&] { world.add_joint(joint); });
     };
     CHECK(says(refused(the_world, 99), "/joints/1/b: there is no body 99; the scene has 10 (joint \"pin\")"));
     CHECK(says(refused(1, 1), "/joints/1/b: body 1 is joined to itself"));
@@ -342,7 +329,7 @@ TEST_CASE("joints come back from a scene file as they were") {
         INFO(text);
         const Scene again = scene_from_json(text).scene;
         CHECK(scene_to_json(again) == text);
-        World one(scene, awake(), 1), other(again, awake(), 1);
+        World one(scene, awake, 1), other(again, awake, 1);
         one.step(10);
         other.step(10);
         CHECK(one.state_hash() == other.state_hash());

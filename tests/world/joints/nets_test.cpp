@@ -7,8 +7,10 @@
 #include "compute/tables/state.h"
 #include "compute/world.h"
 #include "demos/scenes/random.h"
+#include "tests/world/joints/joint_scenes.h"
 
 using namespace scree;
+using tests::energy;
 
 namespace {
 
@@ -41,7 +43,7 @@ Scene net(std::size_t side, std::uint64_t seed) {
     return scene;
 }
 
-constexpr float link = 0.5f;  // m
+constexpr float link_length = 0.5f;  // m
 
 // A level chain of capsules, held at one end. The height, m, decides how positions are rounded.
 Scene chain(std::size_t links, float height = 0) {
@@ -49,17 +51,13 @@ Scene chain(std::size_t links, float height = 0) {
     for (std::size_t i = 0; i < links; ++i) {
         Body body;
         body.shape = Capsule{0.06f, 0.19f};
-        body.position = {link * (static_cast<float>(i) + 0.5f), height, 0};
+        body.position = {link_length * (static_cast<float>(i) + 0.5f), height, 0};
         body.orientation = {0, 0, 0.70710678f, 0.70710678f};
         scene.bodies.push_back(body);
-        scene.joints.push_back(joint_at(scene, Ball{}, i > 0 ? i - 1 : the_world, i, {link * static_cast<float>(i), height, 0}));
+        scene.joints.push_back(
+            joint_at(scene, Ball{}, i > 0 ? i - 1 : the_world, i, {link_length * static_cast<float>(i), height, 0}));
     }
     return scene;
-}
-
-double energy(const World& world) {
-    const Statistics now = world.statistics();
-    return now.kinetic_energy + now.potential_energy;
 }
 
 // The first step takes what the velocities have along the joints.
@@ -96,7 +94,7 @@ TEST_CASE("a chain of several blocks gains no more than a twentieth of the energ
         CAPTURE(links);
         const double weight =
             9.81 * static_cast<double>(links) * static_cast<double>(mass_properties(Capsule{0.06f, 0.19f}, 1000).mass);
-        const double swings_with = weight * 0.5 * static_cast<double>(link) * static_cast<double>(links);
+        const double swings_with = weight * 0.5 * static_cast<double>(link_length) * static_cast<double>(links);
         require_no_gain(scene, 12, 1200, 0.05 * swings_with);
     }
 }

@@ -6,8 +6,11 @@
 
 #include "compute/runner.h"
 #include "compute/world.h"
+#include "tests/world/joints/joint_scenes.h"
 
 using namespace scree;
+using tests::energy;
+using tests::slider;
 
 namespace {
 
@@ -27,22 +30,6 @@ Scene arm(const Axis& axis, float mass) {
     scene.bodies.push_back(link(mass));
     scene.joints.push_back(joint_at(scene, Hinge{axis}, the_world, 0, vec3(0), {0, 0, 1}));
     return scene;
-}
-
-Scene slider(const Axis& axis, float mass) {
-    Scene scene;
-    scene.gravity = vec3(0);
-    Body body;
-    body.shape = Box{vec3(0.1f)};
-    body.inertial = Inertial{.mass = mass, .inertia = vec3(0.1f)};
-    scene.bodies.push_back(body);
-    scene.joints.push_back(joint_at(scene, Slider{axis}, the_world, 0, vec3(0)));
-    return scene;
-}
-
-double energy(const World& world) {
-    const Statistics s = world.statistics();
-    return s.kinetic_energy + s.potential_energy;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/vehicle_presets.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -24,12 +25,7 @@ Scene one_car(const Car& car = {}) {
 std::string refusal(const std::function<void(Scene&)>& spoil) {
     Scene scene = one_car();
     spoil(scene);
-    try {
-        checked(scene);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(scene); });
 }
 
 vec3 up_of(const BodyState& body) {
@@ -224,12 +220,7 @@ TEST_CASE("a scene file may name a vehicle's bodies and joints, and a wrong name
     REQUIRE(scene.vehicles[0].chassis == 0);
     REQUIRE(scene.vehicles[0].wheels[0].joint == 0);
     const auto said = [&](const std::string& vehicle) -> std::string {
-        try {
-            checked(with(vehicle));
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return tests::refusal_of([&] { checked(with(vehicle)); });
     };
     CHECK(said(R"({"chassis": "fram", "wheels": []})").find("/vehicles/0/chassis: there is no body named \"fram\"") == 0);
     CHECK(said(R"({"chassis": 0, "wheels": [{"joint": "axel"}]})").find("/vehicles/0/wheels/0/joint: there is no joint named") ==

@@ -10,6 +10,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "host/system/machine.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tests/world/solid_meshes.h"
 
@@ -66,12 +67,7 @@ Body of_mesh(Mesh mesh, vec3 at = vec3(0), Motion motion = Motion::dynamic) {
 std::string refusal(Body body) {
     Scene scene;
     scene.bodies.push_back(std::move(body));
-    try {
-        checked(scene);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(scene); });
 }
 
 }  // namespace
@@ -375,12 +371,7 @@ TEST_CASE("convex parts: a scene file asks for them, and keeps what they became"
     CHECK(compound.parts.size() <= 16);
     CHECK(compound.parts[0].skinned);
     const auto refused = [](const std::string& shape) -> std::string {
-        try {
-            scene_from_json("{\"bodies\": [{\"shape\": " + shape + "}]}");
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return tests::refusal_of([&] { scene_from_json("{\"bodies\": [{\"shape\": " + shape + "}]}"); });
     };
     CHECK(
         refused(R"({"mesh": {"file": "a.obj", "decompose": true}})").find("/bodies/0/shape/mesh/decompose: must be an object") ==

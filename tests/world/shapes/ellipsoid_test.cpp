@@ -7,19 +7,15 @@
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/world/heaps.h"
 
 using namespace scree;
+using tests::ground;
 
 namespace {
 
 constexpr float g = 9.81f;
 
-Body fixed_plane() {
-    Body body;
-    body.motion = Motion::fixed;
-    body.shape = Plane{};
-    return body;
-}
 Body body_of(Shape shape, vec3 position, vec4 orientation = {0, 0, 0, 1}) {
     Body body;
     body.shape = std::move(shape);
@@ -49,7 +45,7 @@ TEST_CASE("an ellipsoid has the mass and inertia of the textbook, and with equal
 
 TEST_CASE("an ellipsoid rests at the height of its smallest radius, wherever it points") {
     Scene scene;
-    scene.bodies = {fixed_plane(), body_of(Ellipsoid{{0.5f, 0.2f, 0.4f}}, {0, 0.2f, 0}),
+    scene.bodies = {ground(), body_of(Ellipsoid{{0.5f, 0.2f, 0.4f}}, {0, 0.2f, 0}),
                     body_of(Ellipsoid{{0.2f, 0.5f, 0.3f}}, {3, 0.2f, 0}, {0, 0, std::sqrt(0.5f), std::sqrt(0.5f)})};
     Body tipped = body_of(Ellipsoid{{0.5f, 0.3f, 0.4f}}, {6, 0.6f, 0}, {0.3f, 0.1f, 0.2f, 0.9f});
     tipped.rolling_resistance = 0.01f;
@@ -71,7 +67,7 @@ TEST_CASE("an ellipsoid rocks with the period of the textbook, and never more th
     for (const vec3 radii : {vec3(0.5f, 0.3f, 0.4f), vec3(0.3f, 0.25f, 0.5f)}) {
         const float angle = 0.03f, a2 = radii.x * radii.x, b2 = radii.y * radii.y;
         Scene scene;
-        scene.bodies = {fixed_plane(), body_of(Ellipsoid{radii}, {0, radii.y, 0}, {0, 0, angle / 2, 1})};
+        scene.bodies = {ground(), body_of(Ellipsoid{radii}, {0, radii.y, 0}, {0, 0, angle / 2, 1})};
         for (Body& body : scene.bodies) body.friction = 1;
         Settings settings;
         settings.sleeping = false;
@@ -98,7 +94,7 @@ TEST_CASE("an ellipsoid of equal radii rolls down a slope as a sphere does") {
     const float slope = 0.25f;
     Scene scene;
     scene.gravity = {g * std::sin(slope), -g * std::cos(slope), 0};
-    scene.bodies = {fixed_plane(), body_of(Ellipsoid{vec3(0.3f)}, {0, 0.3f, 0}), body_of(Sphere{0.3f}, {0, 0.3f, 3})};
+    scene.bodies = {ground(), body_of(Ellipsoid{vec3(0.3f)}, {0, 0.3f, 0}), body_of(Sphere{0.3f}, {0, 0.3f, 3})};
     for (Body& body : scene.bodies) body.friction = 0.8f;
     World world(scene, {}, 1);
     world.step(120);
@@ -142,7 +138,7 @@ TEST_CASE("a pile of ellipsoids, alone and as parts of compounds, comes to rest 
     std::mt19937 chance(3);
     const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
     Scene scene;
-    scene.bodies.assign(5, fixed_plane());  // a pit
+    scene.bodies.assign(5, ground());  // a pit
     const vec3 walls[] = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
     for (std::size_t k = 0; k < 4; ++k) scene.bodies[k + 1].shape = Plane{walls[k], -1.1f};
     for (int k = 0; k < 60; ++k) {

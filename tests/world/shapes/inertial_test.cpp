@@ -6,18 +6,14 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_file/scene_schema.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
 namespace {
 
 std::string message_of(Scene scene) {
-    try {
-        checked(std::move(scene));
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(std::move(scene)); });
 }
 
 Body weight(Inertial inertial) {

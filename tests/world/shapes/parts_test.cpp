@@ -8,6 +8,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/tables/state.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 
 using namespace scree;
 
@@ -51,12 +52,7 @@ std::string refusal(const Shape& shape, Motion motion = Motion::fixed) {
     Scene scene;
     scene.bodies = {body_of(shape, {}, motion)};
     scene.bodies[0].name = "thing";
-    try {
-        checked(scene);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(scene); });
 }
 bool says(const std::string& text, const std::string& part) {
     return text.find(part) != text.npos;
@@ -289,12 +285,7 @@ TEST_CASE("compounds, meshes and height fields are read from a scene file and wr
     REQUIRE(std::get<HeightField>(read.bodies[2].shape).heights[5] == 6);
     REQUIRE(scene_to_json(read) == text);
     const auto refused = [](const std::string& shape) {
-        try {
-            scene_from_json("{\"bodies\": [{\"shape\": " + shape + "}]}");
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return tests::refusal_of([&] { scene_from_json("{\"bodies\": [{\"shape\": " + shape + "}]}"); });
     };
     REQUIRE(says(refused(R"({"compound": {"parts": [{"shape": {"compound": {"parts": []}}}]}})"),
                  "/bodies/0/shape/compound/parts/0/shape: a part must be one convex shape"));

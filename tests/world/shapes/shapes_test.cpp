@@ -6,6 +6,7 @@
 #include "compute/scene/meshes/hull.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/refusal.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -32,12 +33,7 @@ std::string refusal(const Shape& shape) {
     Scene scene;
     scene.bodies = {fixed_plane(), body_of(shape, {})};
     scene.bodies[1].name = "stone";
-    try {
-        checked(scene);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { checked(scene); });
 }
 
 }  // namespace

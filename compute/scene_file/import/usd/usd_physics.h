@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "compute/scene_file/import/gltf_nodes.h"
+#include "compute/scene_file/import/gltf/gltf_nodes.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/import/model.h"
 #include "compute/scene_file/import/usd/usd_stage.h"

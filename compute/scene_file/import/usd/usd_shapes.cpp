@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "compute/scene/meshes/hull.h"
-#include "compute/scene_file/import/gltf_shapes.h"
+#include "compute/scene_file/import/gltf/gltf_shapes.h"
 #include "compute/scene_file/import/srgb.h"
 #include "compute/scene_file/import/usd/usd_physics.h"
 
