@@ -76,7 +76,8 @@ struct Order {
 };
 const std::vector<Order> orders = {
     {"shaders/physics/",
-     {"base", "body", "collide", "constraint", "impact", "contact", "joint", "sleep", "continuous", "fracture", "vehicle"},
+     {"base", "body", "collide", "constraint", "impact", "contact", "joint", "sleep", "continuous", "fracture", "bond",
+      "vehicle"},
      false},
     {"compute/",
      {"parallel", "tables", "plan", "schema", "scene", "compile", "cpu", "distributed", "world", "measures", "device",

@@ -18,8 +18,10 @@ LAWS_BEGIN
 // Of the split masses, per h^2 and per h: above, twice their sum may reach the limit of stability.
 CONSTANT float STIFFEST_BOND = 0.5f;
 CONSTANT float MOST_DAMPED_BOND = 0.5f;
-// Shear over Young's modulus, for a Poisson's ratio of 1/4; the twist of a round section over its bending is twice that.
+// Shear over Young's modulus, for a Poisson's ratio of 1/4; and the twist of a round section over its bending, which is twice
+// that.
 CONSTANT float SHEAR_OF_BOND = 0.4f;
+CONSTANT float TWIST_OF_BOND = 0.8f;
 CONSTANT uint BOND_WORDS = 7u;  // change of velocity, of spin, and 1 if the bond holds
 
 struct BondRate {
@@ -71,7 +73,7 @@ LAW BondPull pull_of_bond(Bond bond, Pose pose_a, Pose pose_b, VelocityPair v, M
     BondRate shear = rate_of_bond(SHEAR_OF_BOND * bond.stretch, straight + (turned_a * length_a + turned_b * length_b),
                                   bond.damping, parameters);
     BondRate bend = rate_of_bond(bond.bend, turned_a + turned_b, bond.damping, parameters);
-    BondRate twist = rate_of_bond(2.0f * SHEAR_OF_BOND * bond.bend, turned_a + turned_b, bond.damping, parameters);
+    BondRate twist = rate_of_bond(TWIST_OF_BOND * bond.bend, turned_a + turned_b, bond.damping, parameters);
 
     float gap_along = dot3(gap, along), speed_along = dot3(speed, along);
     float turned_along = dot3(turned, along), spin_along = dot3(spin, along);
