@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compute/world.h"
-#include "demos/film/glb_meshes.h"
+#include "demos/film/export/glb_meshes.h"
 
 namespace scree::demos {
 

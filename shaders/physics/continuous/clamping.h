@@ -56,9 +56,9 @@ LAW float part_within(float way, float growth, float back, float ahead) {
 }
 // The fraction of its sweep after which a body leaves the bounds of its broadphase search by more than ccd_threshold; 1
 // if it stays within. Beyond, a ricochet could pass bodies that it was not paired with. But a body that rested and is
-// driven by a fast kinematic body must keep ahead of that.
+// driven by a fast kinematic body must keep ahead of that, and what collides with nothing is searched for nowhere.
 LAW float seen_part(BodyProperties properties, Sweep sweep, Pose end, Bounds bounds) {
-    if ((sweep.marks & DRIVEN) != 0u) return 1.0f;
+    if ((sweep.marks & DRIVEN) != 0u || (properties.flags & ROW_APART) != 0u) return 1.0f;
     vec3 half_size = half_extents_of(properties, sweep.orientation);
     vec3 growth = larger3(half_extents_of(properties, end.orientation) - half_size, vec3(0.0f));
     half_size = half_size - vec3(ccd_threshold(properties));

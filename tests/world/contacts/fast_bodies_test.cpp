@@ -210,6 +210,19 @@ TEST_CASE("what flies past close by is not pushed, and does not push") {
     }
 }
 
+TEST_CASE("fast thin bodies that are only drawn, or sensors, go their way") {
+    for (const Role role : {Role::drawn, Role::sensor}) {
+        Body plate = body_of(Box{{0.2f, 0.001f, 0.2f}}, vec3(0), {3, 10, 0});
+        plate.angular_velocity = {0, 0, 8};
+        plate.role = role;
+        World world(in_space({plate, fixed(Box{vec3(1)}, {0, 5, 0})}), {}, 1);
+        world.step(60);
+        CAPTURE(static_cast<int>(role), world.bodies()[0].position.x, world.bodies()[0].position.y);
+        CHECK(std::abs(world.bodies()[0].position.x - 3) < 1e-3f);
+        CHECK(std::abs(world.bodies()[0].position.y - 10) < 1e-3f);
+    }
+}
+
 TEST_CASE("where nothing is fast, nothing is done for it") {
     Settings roomy;
     roomy.pairs_at_first = roomy.contacts_at_first = 1000;
