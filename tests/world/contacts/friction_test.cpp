@@ -163,11 +163,11 @@ Hull slab(vec3 half) {
         hull.points.emplace_back(half * vec3((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1));
     return hull;
 }
-// A slab in two halves, side by side along x.
+// A slab in two halves, side by side along z.
 Compound halves(vec3 half) {
-    const vec3 one(half.x / 2, half.y, half.z);
+    const vec3 one(half.x, half.y, half.z / 2);
     return Compound{
-        {Part{.shape = slab(one), .position = vec3(-one.x, 0, 0)}, Part{.shape = slab(one), .position = vec3(one.x, 0, 0)}}};
+        {Part{.shape = slab(one), .position = vec3(0, 0, -one.z)}, Part{.shape = slab(one), .position = vec3(0, 0, one.z)}}};
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ TEST_CASE("thin plates slide over each other without sinking, as boxes, as hulls
             Body table{.shape = shape({1, 0.002f, 0.2f})}, plate{.shape = shape({0.05f, 0.002f, 0.05f})};
             table.motion = Motion::fixed;
             table.friction = plate.friction = 0;
-            plate.position = {-0.8f, 0.004f, 0.01f};
+            plate.position = {-0.8f, 0.004f, 0.1f};
             plate.velocity = {speed, 0, 0};
             scene.bodies = {table, plate};
             World world(scene, awake(), 1);
