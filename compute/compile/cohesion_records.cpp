@@ -18,19 +18,11 @@ bool is_cohesive(const Body& body) {
                                    [](const Part& part) { return part.material && part.material->cohesion > 0; });
 }
 
-double volume_of(const Body& body) {
-    const auto* compound = std::get_if<Compound>(&body.shape);
-    if (!compound) return static_cast<double>(mass_properties(body.shape, 1).mass);
-    Compound even = *compound;
-    for (Part& part : even.parts) part.density = 0;
-    return mass_of(even, 1).mass;
-}
-
 }  // namespace
 
 float SceneCompiler::curvature_of(const Body& body) {
     if (!is_cohesive(body) || std::holds_alternative<Sphere>(body.shape)) return 0;
-    const double volume = volume_of(body);
+    const double volume = solid_volume_of(body);
     return volume > 0 ? static_cast<float>(portable::cbrt(4 * std::numbers::pi / (3 * volume))) : 0;
 }
 

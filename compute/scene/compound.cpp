@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "compute/scene/meshes/hull.h"
 
@@ -58,6 +59,14 @@ WholeMass mass_of(const Compound& compound, float density) {
                          static_cast<double>(parts[i].mass) * (glm::dot(r, r) * dmat3(1) - glm::outerProduct(r, r));
     }
     return whole;
+}
+
+double solid_volume_of(const Body& body) {
+    const auto* compound = std::get_if<Compound>(&body.shape);
+    if (!compound) return static_cast<double>(mass_properties(body.shape, 1).mass);
+    Compound even = *compound;
+    for (Part& part : even.parts) part.density = 0;
+    return mass_of(even, 1).mass;
 }
 
 Recentred bring_to_centre(Compound& compound, float density) {

@@ -15,6 +15,8 @@ struct WholeMass {
 };
 // Masses of overlapping parts add up. `density` (kg/m^3): for parts without a density of their own.
 WholeMass mass_of(const Compound& compound, float density);
+// Of a checked body, m^3; volumes of overlapping parts add up, and what is flat or has no shape has none.
+double solid_volume_of(const Body& body);
 
 // Moves the parts so that their centre of mass is the origin and their principal axes of inertia are the axes. Returns
 // the new frame in the old one: origin (m) and rotation. Parts already so, to rounding, stay bit-identical.

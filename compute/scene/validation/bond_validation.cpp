@@ -16,14 +16,6 @@ namespace scree {
 
 namespace {
 
-double solid_volume_of(const Body& body) {
-    const auto* compound = std::get_if<Compound>(&body.shape);
-    if (!compound) return static_cast<double>(mass_properties(body.shape, 1).mass);
-    Compound even = *compound;
-    for (Part& part : even.parts) part.density = 0;
-    return mass_of(even, 1).mass;
-}
-
 void place_bond(const Examination& at, Bond& bond, const Scene& scene) {
     const Body &a = scene.bodies[bond.a], &b = scene.bodies[bond.b];
     const double radius_a = radius_as_ball(a), radius_b = radius_as_ball(b);
