@@ -67,7 +67,7 @@ typedef enum scree_result {
 SCREE_API const char* scree_error_message(void);
 SCREE_API const char* scree_error_place(void); /* a JSON pointer, or "" */
 
-SCREE_API const char* scree_version(void); /* such as "0.14.0" */
+SCREE_API const char* scree_version(void); /* such as "0.15.0" */
 SCREE_API int scree_has_vulkan(void);      /* whether it was built with it */
 
 /* JSON of what the library knows. what: "schema" of scene files; "settings" by default; "demos", an array of [name, line]; "keys"
