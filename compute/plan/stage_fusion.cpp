@@ -179,7 +179,7 @@ BlockRounds rounds_of(std::span<const physics::Joint> joints, const physics::Joi
     }
     each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
     each += coupled_rounds_of(joints, block, threads);
-    return {each, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints) +
+    return {each, 8 * block.bodies + 30 * block.joints + 8 * axis_rounds * shared(block.joints) +
                       4 * term_rounds * block.couplings * block.joints};
 }
 

@@ -43,6 +43,7 @@ TEST_CASE("joints that entangle, more than a device's loops have rounds for, giv
     REQUIRE(rounds_at_once(entangled()) < physics::JOINT_ROUNDS);
     require_equal(spokes(), 5);
     require_equal(entangled(), 3);
+    require_equal(entangled(physics::SMALL_BLOCK_JOINTS), 20);
 }
 
 TEST_CASE("joints of every kind give the same bits on both processors, and validation stays silent", "[process:kinds]") {

@@ -122,13 +122,13 @@ Scene spokes() {
     return scene;
 }
 
-Scene entangled() {
+Scene entangled(std::size_t joints) {
     Scene scene;
     SixDof loose;
     loose.x.limits = loose.y.limits = loose.z.limits = Limits{-0.01f, 0.01f};
     loose.twist.limits = loose.swing_y.limits = loose.swing_z.limits = Limits{-0.02f, 0.02f};
     loose.twist.motor = Motor{3, 50};
-    for (int i = 0; i <= 32; ++i) {
+    for (int i = 0; scene.joints.size() < joints; ++i) {
         Body& plate = scene.bodies.emplace_back();
         plate.shape = Box{{0.02f, 0.2f, 0.2f}};
         plate.position = {0.1f * static_cast<float>(i), 0.03f * static_cast<float>(i % 5), 0.02f * static_cast<float>(i % 3)};
@@ -136,6 +136,7 @@ Scene entangled() {
         if (i == 0) continue;
         for (const float y : {-0.15f, 0.15f})
             for (const float z : {-0.15f, 0.15f}) {
+                if (scene.joints.size() == joints) continue;
                 const auto now = static_cast<std::size_t>(i);
                 scene.joints.push_back(joint_at(scene, loose, now - 1, now, plate.position + vec3(-0.05f, y, z), {1, 0, 0}));
             }

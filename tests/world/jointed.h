@@ -15,7 +15,7 @@ Scene spokes();
 // Boxes that turn by springs, motors and their own speed about every axis that turns, into limits of up to ten turns.
 Scene turning();
 // As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
-Scene entangled();
+Scene entangled(std::size_t joints = 128);
 // Several copies of each of some mechanisms on bouncing ground: pairs, stars, chains and rings, that hang from the world, from a
 // fixed body or not at all. Copies differ in speed, in the kinds of some joints, and in what breaks. `seed`: which ones, and how
 // many copies.

@@ -72,8 +72,7 @@ void place_rows(uint j) {
     v.a = velocity_of(joints.at[j].a, side_a);
     v.b = velocity_of(joints.at[j].b, side_b);
     Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
-    for (uint k = 0u; k < 6u; ++k) {
-        if (joints.at[j].axes[k].mode == 0u) continue;
+    FOR_AXES (k, axes_in_use(j)) {
         JointRow row = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE, side_b != NONE,
                                   joints.at[j].rotors[k].inertia, PARAMETERS.h);
         joints.at[j].rows[k] = row;
@@ -95,8 +94,9 @@ float coupled_impulse(float impulse, uint j, uint k) {
     for (uint coupling = inner_joints_end(); coupling < block_first_joint + block_joints; ++coupling) {
         if (!is_whole(coupling) || !row_acts(coupling_axis(coupling), joints.at[coupling].rows[0])) continue;
         float given = row_impulse(joints.at[coupling].rows[0], no_rotor());
+        if (given == 0.0f) continue;
         uint count = terms_of(coupling);
-        for (uint t = 0u; t < count && given != 0.0f; ++t) {
+        FOR_TERMS (t, count) {
             uint term = term_of(coupling, t);
             if (joint_of_term(term) == j && axis_of_term(term) == k) impulse = with_part(impulse, factor_of(coupling, t), given);
         }
@@ -107,7 +107,7 @@ float coupled_impulse(float impulse, uint j, uint k) {
 
 void share_out(uint j) {
     uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_in_use(j)) {
         JointRow row = joints.at[j].rows[k];
         if (!row_acts(joints.at[j].axes[k], row)) continue;
         float impulse = row_impulse(row, joints.at[j].rotors[k]);
@@ -122,7 +122,7 @@ void share_out(uint j) {
             block_bodies.at[side_b].velocity = row_pushed(block_bodies.at[side_b].velocity, row.direction, row.angular_b, impulse,
                                                           is_linear(k), block_bodies.at[side_b].mass);
     }
-    for (uint k = 0u; k < 6u; ++k)
+    FOR_AXES (k, axes_in_use(j))
         if (has_rotor(joints.at[j].axes[k]))
             joints.at[j].rotors[k] =
                 rotor_slowed(joints.at[j].rotors[k], impulse_of_rotor(joints.at[j].rows[k], joints.at[j].rotors[k]));

@@ -26,9 +26,8 @@ void tear(uint j) {
 // Adds the substep's impulses to the joint's load; in the last substep, breaks it past its limits.
 void take_stock(uint j) {
     vec3 push_sum = vec3(0.0f), turn_sum = vec3(0.0f);
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_of(j)) {
         JointAxis axis = axis_of(j, k);
-        if (axis.mode == 0u) continue;
         JointRow row = row_of(j, k);
         row.direction = row_vector(j, k, DIRECTION);
 #ifdef SCREE_COUPLED
@@ -91,7 +90,7 @@ bool touches(uint m) {
     return false;
 }
 bool sets_rotor_in_motion(uint j) {
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_of(j)) {
         if ((JOINT(j).axes[k].mode & AXIS_ROTOR) == 0u) continue;
         float a = burden_of_body(JOINT(j).a, !is_linear(k)), b = burden_of_body(JOINT(j).b, !is_linear(k));
         if (rotor_yields(impulse_of_rotor(JOINT(j).rows[k], JOINT(j).rotors[k]), smaller(a, b)))

@@ -3,7 +3,12 @@
 #ifndef SCREE_STAGES_COUPLINGS_GLSL
 #define SCREE_STAGES_COUPLINGS_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "shaders/physics/joint/joint_coupling.h"
+
+// Drivers unroll loops over terms (at most 8), which took lavapipe a minute to compile.
+#define FOR_TERMS(t, count) [[dont_unroll]] for (uint t = 0u; t < (count); ++t)
 
 // A coupling by its record in the table of joints.
 uint term_of(uint coupling, uint t) {
@@ -19,7 +24,7 @@ uint terms_of(uint coupling) {
 bool is_whole(uint coupling) {
     uint count = terms_of(coupling);
     bool whole = joints.at[coupling].broken == 0u && count != 0u;
-    for (uint t = 0u; t < count; ++t) whole = whole && joints.at[joint_of_term(term_of(coupling, t))].broken == 0u;
+    FOR_TERMS (t, count) whole = whole && joints.at[joint_of_term(term_of(coupling, t))].broken == 0u;
     return whole;
 }
 JointAxis coupling_axis(uint coupling) {
@@ -38,7 +43,7 @@ void place_coupling(uint coupling) {
     uint count = terms_of(coupling), flags = joints.at[coupling].flags;
     CoupledSum sum;
     sum.coordinate = sum.turns = sum.drift = sum.inverse_effective_mass = 0.0f;
-    for (uint t = 0u; t < count; ++t) {
+    FOR_TERMS (t, count) {
         uint joint = joint_of_term(term_of(coupling, t)), k = axis_of_term(term_of(coupling, t));
         JointRow row = joints.at[joint].rows[k];
         float turns = turns_of_term(k, row.coordinate, joints.at[joint].twist);
@@ -61,7 +66,7 @@ float with_couplings(float normal_impulse, uint joint, uint first, uint end) {
         if (!is_whole(coupling)) continue;
         float impulse = row_impulse(joints.at[coupling].rows[0], no_rotor());
         uint count = terms_of(coupling);
-        for (uint t = 0u; t < count; ++t) {
+        FOR_TERMS (t, count) {
             uint term = term_of(coupling, t);
             if (joint_of_term(term) == joint && is_linear(axis_of_term(term)))
                 normal_impulse = with_push(normal_impulse, factor_of(coupling, t), impulse);

@@ -26,8 +26,7 @@ void set_up_column(uint j, uint k) {
     for (uint slot = 0u; slot < slots_end; ++slot) {
         uint i = slot == 0u ? j : link_of(j, slot - 1u), at = tile_at(j, slot);
         int ends = shared_ends(side_a(i), side_b(i), a, b);
-        for (uint n = slot == 0u ? k : 0u; n < 6u; ++n) {
-            if (!has(unknowns[i], n)) continue;
+        FOR_AXES (n, slot == 0u ? unknowns[i] & (63u << k) : unknowns[i]) {
             vec3 direction = vec3(0.0f), angular_a = vec3(0.0f), angular_b = vec3(0.0f);
             if (is_linear(k) && is_linear(n)) direction = row_vector(i, n, DIRECTION);
             if ((ends & (ENDS_A_A | ENDS_A_B)) != 0) angular_a = row_vector(i, n, ANGULAR_A);

@@ -5,6 +5,11 @@
 #include "shaders/physics/joint/joint_block.h"
 #include "shaders/physics/sleep/sleep.h"
 
+// Calls for each axis of a set, ascending. Drivers unroll loops over six, which took lavapipe a minute to compile.
+#define FOR_AXES(k, axes)                                                                           \
+    for (uint left_of_##k = (axes), k; left_of_##k != 0u && (k = uint(findLSB(left_of_##k))) < 32u; \
+         left_of_##k &= left_of_##k - 1u)
+
 uint block, block_first_joint, block_joints, block_first_body, block_size;
 
 // False if no body of the block can move.
@@ -26,6 +31,14 @@ Pose pose_of(uint body) {
 Velocity velocity_at_first(uint body) {
     if (body != NONE) return velocities.at[body];
     return Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+}
+
+// The axes of a joint that are not free.
+uint axes_in_use(uint joint) {
+    uint axes = 0u;
+    for (uint k = 0u; k < 6u; ++k)
+        if (joints.at[joint].axes[k].mode != 0u) axes |= 1u << k;
+    return axes;
 }
 
 // The split mass of a body of the block.

@@ -12,9 +12,6 @@ uint joint_in_block(uint term) {
 // The entry of its equation with row `at` of the block, 6 joint + axis, is where a joint has its tiles.
 #define COLUMN(g, row) joint_equations.at[block_first_joint + (g)].tiles[row]
 
-// Calls for each axis of a set, ascending. Loops over six that drivers unroll took lavapipe a minute to compile.
-#define FOR_AXES(k, left, axes) for (uint left = (axes), k; left != 0u && (k = uint(findLSB(left))) < 32u; left &= left - 1u)
-
 float speed_of_row(uint joint, uint k) {
     uint j = joint - block_first_joint;
     return speed_of(j, k, couple_of(j));
@@ -25,7 +22,7 @@ float speed_of_row(uint joint, uint k) {
 void add_to_terms(uint g, float impulse) {
     if (impulse == 0.0f) return;
     uint coupling = block_first_joint + g, count = terms_of(coupling);
-    for (uint t = 0u; t < count; ++t) {
+    FOR_TERMS (t, count) {
         uint j = joint_in_block(term_of(coupling, t)), k = axis_of_term(term_of(coupling, t));
         float before = 0.0f;
         if (has(pushing[j], k)) before = given_impulses[6u * j + k];
@@ -38,7 +35,7 @@ void add_to_terms(uint g, float impulse) {
 float speed_of_coupling(uint g, bool before) {
     uint coupling = block_first_joint + g, count = terms_of(coupling);
     float sum = 0.0f;
-    for (uint t = 0u; t < count; ++t) {
+    FOR_TERMS (t, count) {
         uint j = joint_in_block(term_of(coupling, t)), k = axis_of_term(term_of(coupling, t));
         VelocityPair v;
         if (before) {
@@ -66,7 +63,7 @@ void pass_on_impulses() {
 float coupled_entry(uint j, uint k, uint g) {
     uint coupling = block_first_joint + g, count = terms_of(coupling);
     float sum = 0.0f;
-    for (uint t = 0u; t < count; ++t) {
+    FOR_TERMS (t, count) {
         uint i = joint_in_block(term_of(coupling, t)), axis = axis_of_term(term_of(coupling, t));
         int ends = shared_ends(side_a(j), side_b(j), side_a(i), side_b(i));
         if (ends == 0) continue;
@@ -80,7 +77,7 @@ float coupled_entry(uint j, uint k, uint g) {
 float entry_between(uint g, uint other) {
     uint coupling = block_first_joint + g, count = terms_of(coupling);
     float sum = 0.0f;
-    for (uint t = 0u; t < count; ++t)
+    FOR_TERMS (t, count)
         sum = with_entry(sum, factor_of(coupling, t),
                          coupled_entry(joint_in_block(term_of(coupling, t)), axis_of_term(term_of(coupling, t)), other));
     return sum;
@@ -93,27 +90,29 @@ void eliminate_column(uint g) {
     for (uint j = 0u; j < inner; ++j) {
         uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
         bool touches = false;
-        FOR_AXES(k, left, own_axes) touches = touches || COLUMN(g, 6u * j + k) != 0.0f;
+        FOR_AXES (k, own_axes) touches = touches || COLUMN(g, 6u * j + k) != 0.0f;
         if (!touches) continue;
         touched[2u * g + (j >> 5)] |= 1u << (j & 31u);
-        FOR_AXES(k, left, own_axes) {
+        FOR_AXES (k, own_axes) {
             float entry = COLUMN(g, 6u * j + k), inverse = pivots[6u * j + k];
             if (entry == 0.0f) continue;
             // of its own later rows, then of the joints linked with it
             for (uint slot = 0u; slot <= count; ++slot) {
                 uint i = slot == 0u ? j : link_of(j, slot - 1u), at = tile_at(j, slot) + k;
                 uint rows = slot == 0u ? own_axes & (0xFFFFFFFEu << k) : unknowns[i];
-                FOR_AXES(n, more, rows)
-                COLUMN(g, 6u * i + n) = less_multiple(COLUMN(g, 6u * i + n), multiplier_of(TILE(j, at + 6u * n), inverse), entry);
+                FOR_AXES (n, rows)
+                    COLUMN(g, 6u * i + n) =
+                        less_multiple(COLUMN(g, 6u * i + n), multiplier_of(TILE(j, at + 6u * n), inverse), entry);
             }
         }
     }
 }
 // Calls for the rows of joints in which the columns of both couplings may not be 0.
-#define FOR_TOUCHED(j, k, g, with)                                                                              \
-    for (uint w = 0u; w < 2u; ++w) FOR_AXES(bit, joints_left, touched[2u * (g) + w] & touched[2u * (with) + w]) \
-    for (uint j = 32u * w + bit, axes_left = unknowns[32u * w + bit], k;                                        \
-         axes_left != 0u && (k = uint(findLSB(axes_left))) < 32u; axes_left &= axes_left - 1u)
+#define FOR_TOUCHED(j, k, g, with)                                               \
+    for (uint w = 0u; w < 2u; ++w)                                               \
+        FOR_AXES (bit, touched[2u * (g) + w] & touched[2u * (with) + w])         \
+            for (uint j = 32u * w + bit, axes_left = unknowns[32u * w + bit], k; \
+                 axes_left != 0u && (k = uint(findLSB(axes_left))) < 32u; axes_left &= axes_left - 1u)
 // Eliminates the joints' rows from the entry with an earlier coupling, or from the diagonal entry.
 float eliminated_by_joints(uint g, float entry, uint with) {
     FOR_TOUCHED(j, k, g, with) {

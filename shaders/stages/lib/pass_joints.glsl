@@ -70,7 +70,7 @@ void end_part() {
 // ---- the block: its joints and bodies are numbered from 0
 BLOCK_SHARED uint sides[JOINT_ROOM];                 // bodies A and B, 16 bits each
 BLOCK_SHARED uint links[2u * JOINT_ROOM];            // later joints whose equations the elimination changes, 8 bits each
-BLOCK_SHARED uint facts[JOINT_ROOM];                 // number of links from bit 16 on, HOLDS
+BLOCK_SHARED uint facts[JOINT_ROOM];                 // axes in use, number of links from bit 16 on, HOLDS
 BLOCK_SHARED uint unknowns[JOINT_ROOM];              // axes that are unknowns
 BLOCK_SHARED uint pushing[JOINT_ROOM];               // axes whose impulses are to be applied
 BLOCK_SHARED uint hanging[MASK_WORDS * BODY_ROOM];   // joints of each body
@@ -90,6 +90,9 @@ bool has(uint axes, uint k) {
 }
 bool holds(uint j) {
     return (facts[j] & HOLDS) != 0u;
+}
+uint axes_of(uint j) {
+    return facts[j] & 63u;
 }
 uint links_of(uint j) {
     return facts[j] >> 16 & 15u;
@@ -201,7 +204,6 @@ void put_row_vector(uint j, uint k, uint which, vec3 v) {
 #ifdef SCREE_COUPLED
 // Couplings are joints with one row, the first: the laws treat it like those of joints.
 BLOCK_SHARED uint is_unknown[MAX_COUPLED_BLOCK];  // coupling's row in the equations of this round, by joint of the block
-const uint ACTS = 0x40000000u;                    // in `facts`, of a coupling none of whose joints has broken
 
 // The axis by which the laws tell lengths from angles.
 uint kind_of_row(uint j, uint k) {
@@ -219,11 +221,7 @@ uint solved_axes_of(uint j) {
 JointAxis axis_of(uint j, uint k) {
     JointAxis axis;
 #ifdef SCREE_COUPLED
-    if (is_coupling(j)) {
-        axis = axis_of_coupling(JOINT(j).axes[0], JOINT(j).flags);
-        if (k != 0u || (facts[j] & ACTS) == 0u) axis.mode = 0u;
-        return axis;
-    }
+    if (is_coupling(j)) return axis_of_coupling(JOINT(j).axes[0], JOINT(j).flags);
 #endif
     axis.mode = JOINT(j).axes[k].mode;
     axis.lower = axis.upper = axis.stiffness = axis.damping = axis.rest = axis.speed = axis.most = 0.0f;
@@ -303,7 +301,7 @@ void describe_block() {
         a = a == NONE ? NOBODY : a - block_first_body;
         b = b == NONE ? NOBODY : b - block_first_body;
         sides[j] = a | b << 16;
-        facts[j] = count << 16 | (JOINT(j).broken == 0u ? HOLDS : 0u);
+        facts[j] = axes_in_use(block_first_joint + j) | count << 16 | (JOINT(j).broken == 0u ? HOLDS : 0u);
         links[2u * j] = links[2u * j + 1u] = 0u;
         for (uint l = 0u; l < count; ++l)
             links[2u * j + (l >> 2)] |= (JOINT(j).fill_in_of[l] - block_first_joint) << (8u * (l & 3u));
@@ -312,7 +310,7 @@ void describe_block() {
         unknowns[j] = 0u;
 #ifdef SCREE_COUPLED
         is_unknown[j] = 0u;
-        if (is_coupling(j) && is_whole(block_first_joint + j)) facts[j] |= ACTS;
+        if (is_coupling(j)) facts[j] = (facts[j] & ~63u) | (is_whole(block_first_joint + j) ? 1u : 0u);
 #endif
     }
 #ifdef SCREE_SMALL_BLOCKS
@@ -357,11 +355,9 @@ void place_rows(uint j) {
     uint flags = JOINT(j).flags;
     Mass mass_a = mass_of_side(side_a(j)), mass_b = mass_of_side(side_b(j));
     bool has_a = side_a(j) != NONE, has_b = side_b(j) != NONE;
-    for (uint k = 0u; k < 6u; ++k) {
-        uint mode = JOINT(j).axes[k].mode;
-        if (mode == 0u) continue;
+    FOR_AXES (k, axes_of(j)) {
         float inertia = 0.0f;
-        if ((mode & AXIS_ROTOR) != 0u) inertia = JOINT(j).rotors[k].inertia;
+        if ((JOINT(j).axes[k].mode & AXIS_ROTOR) != 0u) inertia = JOINT(j).rotors[k].inertia;
         JointRow row;
         row.motor_impulse = JOINT(j).rows[k].motor_impulse;
         row.limit_impulse = JOINT(j).rows[k].limit_impulse;
@@ -396,8 +392,7 @@ void push_bodies(uint from) {
                 uint j = 32u * w + uint(findLSB(left)), axes = pushing[j];
                 bool is_a = side_a(j) == m, is_b = side_b(j) == m;
                 left &= left - 1u;
-                for (uint k = 0u; k < 6u; ++k) {
-                    if (!has(axes, k)) continue;
+                FOR_AXES (k, axes) {
                     vec3 direction = row_vector(j, k, DIRECTION);
                     float impulse = given_impulses[6u * j + k];
                     if (is_a) v = row_turned(v, direction, row_vector(j, k, TURN_A), -impulse, is_linear(k), mass);
@@ -413,7 +408,7 @@ void push_bodies(uint from) {
 // Chooses the axes that are unknowns; the impulses of the others are given.
 void choose_unknowns(uint j) {
     uint found = 0u, given = 0u, active_set = JOINT(j).active_set;
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_of(j)) {
         JointAxis axis = axis_of(j, k);
         JointRow row = row_of(j, k);
         if (!row_acts(axis, row)) continue;
@@ -446,8 +441,7 @@ void choose_unknowns(uint j) {
 void set_up_sides(uint j) {
     VelocityPair v = couple_of(j);
     uint active_set = JOINT(j).active_set;
-    for (uint k = 0u; k < 6u; ++k) {
-        if (!has(solved_axes_of(j), k)) continue;
+    FOR_AXES (k, solved_axes_of(j)) {
         JointAxis axis = axis_of(j, k);
         RowTarget demand = row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), kind_of_row(j, k),
                                       active_set_of(active_set, k), BIASED, PARAMETERS);
@@ -462,7 +456,7 @@ void set_up_sides(uint j) {
 bool look_at_bounds(uint j, bool settling) {
     VelocityPair v = couple_of(j);
     uint before = JOINT(j).active_set, active_set = before;
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_of(j)) {
         JointAxis axis = axis_of(j, k);
         JointRow row = row_with_changes(j, k);
         if (!row_acts(axis, row)) continue;
@@ -554,9 +548,8 @@ void solve_block() {
 // The impulses that whole bodies get: those of this pass, and of the next warm start if it `warms`. Commits them.
 void commit(uint j, bool warms) {
     uint given = 0u;
-    for (uint k = 0u; k < 6u; ++k) {
+    FOR_AXES (k, axes_of(j)) {
         JointAxis axis = axis_of(j, k);
-        if (axis.mode == 0u) continue;
         JointRow row = row_with_changes(j, k);
         JointRotor rotor = rotor_of(j, k, axis);
         if (row_acts(axis, row)) {
