@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compute/shapes.h"
+#include "compute/scene.h"
 #include "shaders/physics/base/records.h"
 
 namespace scree {
