@@ -107,7 +107,10 @@ void append_solid(std::vector<physics::uvec4>& records, const Polyhedron& solid,
     for (const dvec3& v : solid.vertices) records.push_back(quad_of(back * (v - centre), 0));
 }
 
-// Pairs of neighbours that collide with the same bodies, by a sweep along x.
+// Neighbours of a part, at most: boxes in a grid have 26. Of thousands of parts in one place the records would fill the memory.
+constexpr std::size_t most_neighbours = 32;
+
+// Of each part, those that collide with the same bodies; by a sweep along x.
 std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Part>& parts,
                                                     const std::vector<std::optional<Polyhedron>>& solids) {
     std::vector<std::vector<std::size_t>> neighbours(solids.size());
@@ -116,14 +119,18 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Part>& par
         if (solids[i]) order.push_back(i);
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return std::pair(solids[a]->lower.x, a) < std::pair(solids[b]->lower.x, b); });
+    const auto is_full = [&](std::size_t i) { return neighbours[i].size() >= most_neighbours; };
     for (std::size_t k = 0; k < order.size(); ++k) {
-        const Polyhedron& one = *solids[order[k]];
-        const double end = one.upper.x + static_cast<double>(physics::SEAM_WIDTH) * one.half_width;
-        for (std::size_t m = k + 1; m < order.size() && solids[order[m]]->lower.x <= end; ++m)
-            if (parts[order[k]].filter == parts[order[m]].filter && are_neighbours(one, *solids[order[m]])) {
-                neighbours[order[k]].push_back(order[m]);
-                neighbours[order[m]].push_back(order[k]);
-            }
+        const std::size_t one = order[k];
+        const double end = solids[one]->upper.x + static_cast<double>(physics::SEAM_WIDTH) * solids[one]->half_width;
+        for (std::size_t m = k + 1; m < order.size() && solids[order[m]]->lower.x <= end; ++m) {
+            const std::size_t other = order[m];
+            if ((is_full(one) && is_full(other)) || parts[one].filter != parts[other].filter ||
+                !are_neighbours(*solids[one], *solids[other]))
+                continue;
+            if (!is_full(one)) neighbours[one].push_back(other);
+            if (!is_full(other)) neighbours[other].push_back(one);
+        }
     }
     for (std::vector<std::size_t>& list : neighbours) std::sort(list.begin(), list.end());
     return neighbours;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/tables/state.h"
 #include "compute/world.h"
 #include "tests/world/boards.h"
 
@@ -176,4 +177,16 @@ TEST_CASE("compounds with seams that come and go leave no records behind, and ch
         if (k == 5) size = world.save().size();
     }
     CHECK(world.save().size() == size);
+}
+
+TEST_CASE("thousands of parts in one place are neighbours of few", "[seams]") {
+    Scene scene;
+    Compound crowd;
+    for (int k = 0; k < 3000; ++k) crowd.parts.push_back({.shape = Box{vec3(0.1f + 1e-5f * static_cast<float>(k))}});
+    scene.bodies = {fixed(crowd), Body{.shape = Sphere{0.1f}}};
+    scene.bodies[1].position = {0, 0.5f, 0};
+    World world(scene, awake(), 1);
+    CHECK(world.state().hulls.size() < 3000 * 33 * 16);
+    world.step(60);
+    CHECK(world.bodies()[1].position.y == Approx(0.23f).margin(1e-3));
 }
