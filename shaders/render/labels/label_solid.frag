@@ -1,0 +1,4 @@
+// Labels of hulls and meshes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/labels/label_solid.h"
