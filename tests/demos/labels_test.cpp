@@ -80,12 +80,12 @@ TEST_CASE("labels: every shape is drawn as rays see it, but for pixels on edges"
     demos::DrawnLabels labels(world, drawing, false);
     const demos::ChannelChoice choice{.depth = true, .body = true, .part = true, .normal = true};
     for (const host::Camera& camera : cameras()) {
+        INFO("camera at " << camera.eye.x << " " << camera.eye.y << " " << camera.eye.z);
         const demos::Before before{camera, 0};
         const demos::Channels drawn = labels.channels(camera, width, height, choice, before);
         const Unlike found =
             compared(drawn, demos::channels_of(twin, camera, width, height, choice, before), camera.orthographic ? 1e-3f : 0.0f);
-        INFO("camera " << &camera - cameras().data() << " at " << camera.eye.x << " " << camera.eye.y << " " << camera.eye.z
-                       << ": " << found.ids << " " << found.values << " " << found.parts);
+        INFO(found.ids << " " << found.values << " " << found.parts);
         CHECK(found.ids < 0.001);
         CHECK(found.values < 0.001);
         CHECK(found.parts < 0.001);
