@@ -17,18 +17,25 @@ vec3 normal_of(const LabelledPixel& pixel) {
 const std::vector<Draw>& label_draws() {
     static const std::vector<Draw> draws = [] {
         std::vector<Draw> made;
-        const auto add = [&](const char* vertex, const char* label, const char* cover, Cull cull, Mesh mesh, std::uint32_t run) {
-            const DrawState state{Pass::picture, vertex, label, cull, Compare::greater, true};
-            made.push_back({state, Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
-            const DrawState hidden_too{Pass::picture, vertex, cover, cull, Compare::always};
+        struct Shaders {
+            const char *vertex, *fragment;
+        };
+        const auto add = [&](const Shaders& label, const Shaders& cover, Cull cull, Mesh mesh, std::uint32_t run) {
+            const DrawState seen{Pass::picture, label.vertex, label.fragment, cull, Compare::greater, true};
+            made.push_back({seen, Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
+            const DrawState hidden_too{Pass::picture, cover.vertex, cover.fragment, cull, Compare::always};
             made.push_back({hidden_too, Items::bodies, mesh, 0, run, pushed_for_run(run, 1)});
         };
         // First those whose depth is known before their fragments are.
-        add("label_box.vert", "label_box.frag", "cover_box.frag", Cull::back, Mesh::box, RUN_ALL_BOXES);
-        add("label_solid.vert", "label_solid.frag", "cover_solid.frag", Cull::back, Mesh::solid, RUN_ALL_SOLIDS);
-        add("label_round.vert", "label_ball.frag", "cover_ball.frag", Cull::none, Mesh::box, RUN_ALL_SPHERES);
-        add("label_round.vert", "label_capsule.frag", "cover_capsule.frag", Cull::none, Mesh::box, RUN_ALL_CAPSULES);
-        add("label_round.vert", "label_rim.frag", "cover_rim.frag", Cull::none, Mesh::box, RUN_ALL_SOLIDS);
+        add({"label_box.vert", "label_box.frag"}, {"cover_box.vert", "cover_row.frag"}, Cull::back, Mesh::box, RUN_ALL_BOXES);
+        add({"label_solid.vert", "label_solid.frag"}, {"cover_solid.vert", "cover_row.frag"}, Cull::back, Mesh::solid,
+            RUN_ALL_SOLIDS);
+        const auto add_round = [&](const char* label, const char* cover, std::uint32_t run) {
+            add({"label_round.vert", label}, {"label_round.vert", cover}, Cull::none, Mesh::box, run);
+        };
+        add_round("label_ball.frag", "cover_ball.frag", RUN_ALL_SPHERES);
+        add_round("label_capsule.frag", "cover_capsule.frag", RUN_ALL_CAPSULES);
+        add_round("label_rim.frag", "cover_rim.frag", RUN_ALL_SOLIDS);
         const DrawState plane{Pass::picture, "label_plane.vert", "label_plane.frag", Cull::none, Compare::greater, true};
         made.push_back({plane, Items::planes, Mesh::none, 3});
         return made;
