@@ -23,6 +23,7 @@ constexpr int width = 160, height = 120;
 struct Unlike {
     double ids = 0;                // fraction of pixels
     double parts = 0, values = 0;  // fractions of those with one body: other parts; depth or normals apart
+    std::size_t edges = 0;         // pixels at outlines
     std::size_t inner = 0;         // pixels with another body though all neighbours show one body
 };
 
@@ -42,6 +43,7 @@ Unlike compared(const demos::Channels& drawn, const demos::Channels& cast, float
     std::size_t alike = 0;
     for (std::size_t i = 0; i < cast.body.size(); ++i) {
         const int x = static_cast<int>(i) % cast.width, y = static_cast<int>(i) / cast.width;
+        found.edges += x > 0 && cast.body[i] != cast.body[i - 1] ? 1 : 0;
         if (drawn.body[i] != cast.body[i]) {
             ++found.ids;
             found.inner += is_inner(cast, x, y) && is_inner(drawn, x, y) ? 1 : 0;
@@ -86,6 +88,7 @@ TEST_CASE("labels: every shape is drawn as rays see it, but for pixels on edges"
         const Unlike found =
             compared(drawn, demos::channels_of(twin, camera, width, height, choice, before), camera.orthographic ? 1e-3f : 0.0f);
         INFO(found.ids << " " << found.values << " " << found.parts);
+        CHECK(found.edges > 30);
         CHECK(found.ids < 0.001);
         CHECK(found.values < 0.001);
         CHECK(found.parts < 0.001);
