@@ -184,3 +184,25 @@ TEST_CASE("labels: silhouettes are those of rays that go through all bodies, als
         CHECK(listed == 0);
     }
 }
+
+TEST_CASE("labels: what covers pixels is listed in bands of rows if it does not fit at once, each row in one band") {
+    host::CoverBands bands(100);
+    constexpr std::uint32_t of_a_row = 200000;
+    int next = 0, tries = 0;
+    while (!bands.done()) {
+        REQUIRE(++tries < 60);
+        CHECK(bands.first() == next);
+        CHECK(bands.end() <= 100);
+        const std::uint32_t count = static_cast<std::uint32_t>(bands.end() - bands.first()) * of_a_row;
+        const int end = bands.end();
+        const bool fits = count <= bands.room();
+        CHECK(bands.take(count) == fits);
+        if (fits) next = end;
+    }
+    CHECK(next == 100);
+    CHECK(std::size_t{bands.room()} * sizeof(host::Cover) < std::size_t{128} << 20);  // what lavapipe binds
+    host::CoverBands one(1);
+    CHECK_FALSE(one.take(20000000));
+    CHECK(one.take(20000000));
+    CHECK(one.done());
+}

@@ -1,4 +1,5 @@
-// What a fragment tells: of the body that it shows normal, depth and row, or that a body covers its pixel, whatever hides it there.
+// What a fragment tells: of the body that it shows normal, depth and row, or that a body covers its pixel, whatever hides it
+// there.
 #ifndef SCREE_RENDER_LABEL_H
 #define SCREE_RENDER_LABEL_H
 
