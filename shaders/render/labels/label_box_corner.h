@@ -14,6 +14,9 @@ layout(location = 3) flat out vec4 out_turn;
 layout(location = 4) flat out vec3 out_size;
 #endif
 
+// What is seen is covered: labels and lists of covers must have equal positions.
+invariant gl_Position;
+
 void main() {
     Corner at = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);

@@ -11,6 +11,9 @@ layout(location = 1) flat out vec4 out_turn;
 layout(location = 2) flat out vec3 out_size;
 layout(location = 3) flat out uint out_row;
 
+// What is seen is covered: labels and lists of covers must have equal positions.
+invariant gl_Position;
+
 const float LARGER = 1.0005;
 
 // Half extents of a box about the shape's centre.

@@ -12,6 +12,9 @@ layout(location = 2) flat out vec3 out_corner;  // a corner of the triangle, lik
 layout(location = 3) flat out vec3 out_normal;  // of the triangle, in the world
 #endif
 
+// What is seen is covered: labels and lists of covers must have equal positions.
+invariant gl_Position;
+
 void main() {
     Corner at = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
