@@ -171,6 +171,7 @@ TEST_CASE("labels: silhouettes are those of rays that go through all bodies, als
         for (const demos::Silhouette& one : drawn.bodies) {
             const Count& count = counts[one.body];
             CHECK(world.scene().bodies[one.body].motion == Motion::dynamic);
+            CHECK(demos::count_of(one.seen) <= demos::count_of(one.whole));
             apart += differ(one.pixels, count.all) + differ(demos::count_of(one.whole), count.whole) +
                      differ(demos::count_of(one.seen), count.seen);
             all += count.all;
