@@ -81,11 +81,6 @@ inline std::vector<host::Camera> cameras() {
         {.eye = {0, -3, 1}, .target = {0, 2, 0}, .vertical_fov = 60},  // from below the ground
     };
     all[1].near_plane = 0.4f;
-    // So near an outline that a polygon of 32 sides in place of a circle would miss it by more than a pixel.
-    for (const std::size_t body : {3u, 4u, 5u, 7u, 8u}) {
-        const vec3 at = shapes(false).bodies[body].position;
-        all.push_back({.eye = at + vec3(0.3f, 0.2f, 5), .target = at + vec3(0.15f, 0.1f, 0), .vertical_fov = 2});
-    }
     std::mt19937 random(3);
     std::uniform_real_distribution<float> any(-1, 1);
     for (int i = 0; i < 6; ++i) {
