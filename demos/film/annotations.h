@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/world.h"
+#include "demos/film/drawn_labels.h"
 #include "demos/program/options/options.h"
 #include "host/canvas/camera.h"
 
@@ -16,8 +16,8 @@ namespace scree::demos {
 class Annotations {
 public:
     virtual ~Annotations() = default;
-    // Of the world as it is, for the next frame. Throws host::FileError, host::ImageError.
-    virtual void add(const World& world, const host::Camera& camera) = 0;
+    // Of what is drawn, for the next frame. Throws host::DeviceError, host::FileError, host::ImageError.
+    virtual void add(DrawnLabels& drawn, const host::Camera& camera) = 0;
     virtual void finish() = 0;  // gives the files their names; without it there are none
 };
 

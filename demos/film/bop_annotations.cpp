@@ -130,8 +130,9 @@ void BopAnnotations::write_mask(const char* folder, int number, const PixelRuns&
     host::write_png8(scene_ / folder / fmt::format("{:06}_{:06}.png", frames_, number), width_, height_, levels);
 }
 
-void BopAnnotations::add(const World& world, const host::Camera& camera) {
-    const Silhouettes seen = silhouettes_of(world, camera, width_, height_);
+void BopAnnotations::add(DrawnLabels& drawn, const host::Camera& camera) {
+    const World& world = drawn.world();
+    const Silhouettes seen = silhouettes_of(drawn, camera, width_, height_);
     const CvCamera cv = cv_of(camera, width_, height_);
     std::vector<std::size_t> bodies;
     for (const Silhouette& one : seen.bodies) bodies.push_back(one.body);

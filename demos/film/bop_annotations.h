@@ -20,7 +20,7 @@ class BopAnnotations : public Annotations {
 public:
     explicit BopAnnotations(const PictureOptions& options);
     ~BopAnnotations() override;
-    void add(const World& world, const host::Camera& camera) override;
+    void add(DrawnLabels& drawn, const host::Camera& camera) override;
     void finish() override;
 
 private:

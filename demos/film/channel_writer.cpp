@@ -73,9 +73,10 @@ ChannelWriter::ChannelWriter(const PictureOptions& options, const World& world)
                         bodies));
 }
 
-std::vector<host::ExrLayer> ChannelWriter::add(const World& world, const host::Camera& camera) {
+std::vector<host::ExrLayer> ChannelWriter::add(DrawnLabels& drawn, const host::Camera& camera) {
+    const World& world = drawn.world();
     const Before before{camera_before_.value_or(camera), static_cast<float>(camera_before_ ? world.time() - time_before_ : 0)};
-    const Channels made = channels_of(world, camera, width_, height_, choice_, before);
+    const Channels made = drawn.channels(camera, width_, height_, choice_, before);
     if (numpy_) write_numpy(made);
     if (png_) write_png(made);
     camera_before_ = camera;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compute/world.h"
-#include "demos/film/channels.h"
+#include "demos/film/drawn_labels.h"
 #include "demos/program/options/options.h"
 #include "host/pictures/exr_file.h"
 
@@ -17,9 +17,9 @@ class ChannelWriter {
 public:
     // Throws UsageError for bodies that a PNG's 16 bits cannot number.
     ChannelWriter(const PictureOptions& options, const World& world);
-    // Writes the channels of the world as it is, DIR/depth_000000.npy and so on, or returns them as layers of the frame's EXR
-    // file. Throws host::FileError, host::ImageError.
-    std::vector<host::ExrLayer> add(const World& world, const host::Camera& camera);
+    // Writes the channels of what is drawn, DIR/depth_000000.npy and so on, or returns them as layers of the frame's EXR
+    // file. Throws host::DeviceError, host::FileError, host::ImageError.
+    std::vector<host::ExrLayer> add(DrawnLabels& drawn, const host::Camera& camera);
 
 private:
     void write_numpy(const Channels& made) const;

@@ -16,79 +16,6 @@ namespace {
 // Rays in one batch: bounds the memory of large pictures.
 constexpr std::size_t pixels_at_once = 1u << 18;
 
-class Casting {
-public:
-    Casting(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
-            const Before& before, std::size_t copy)
-        : world_(world),
-          rays_(host::pixel_rays(camera, width, height)),
-          rays_before_(host::pixel_rays(before.camera, width, height)),
-          choice_(choice),
-          seconds_(before.seconds),
-          copy_(copy) {
-        made.width = width;
-        made.height = height;
-        const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        if (choice.depth) made.depth.resize(pixels, std::numeric_limits<float>::infinity());
-        if (choice.body) made.body.resize(pixels, -1);
-        if (choice.part) made.part.resize(pixels, -1);
-        if (choice.normal) made.normal.resize(3 * pixels);
-        if (choice.flow) made.flow.resize(2 * pixels);
-        if (choice.flow) bodies_ = world.bodies();
-        for (std::size_t first = 0; first < pixels; first += pixels_at_once)
-            cast(first, std::min(first + pixels_at_once, pixels));
-    }
-
-    Channels made;
-
-private:
-    glm::vec2 centre_of(std::size_t pixel) const {
-        const auto width = static_cast<std::size_t>(made.width);
-        return {static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f};
-    }
-    void cast(std::size_t first, std::size_t last) {
-        std::vector<RayQuery> queries;
-        queries.reserve(last - first);
-        for (std::size_t i = first; i < last; ++i) {
-            queries.push_back(ray_through(rays_, centre_of(i).x, centre_of(i).y));
-            queries.back().copy = copy_;
-        }
-        const std::vector<std::optional<QueryHit>> hits = world_.cast_rays(queries);
-        for (std::size_t i = first; i < last; ++i) take(i, queries[i - first], hits[i - first]);
-    }
-    void take(std::size_t i, const RayQuery& ray, const std::optional<QueryHit>& hit) {
-        if (choice_.flow) note_flow(i, ray, hit);
-        if (!hit) return;
-        if (choice_.depth) made.depth[i] = depth_along(rays_, ray, hit->distance);
-        if (choice_.body) made.body[i] = static_cast<std::int32_t>(hit->body);
-        if (choice_.part) made.part[i] = static_cast<std::int32_t>(hit->part);
-        if (choice_.normal)
-            for (std::size_t k = 0; k < 3; ++k) made.normal[3 * i + k] = hit->normal[static_cast<glm::length_t>(k)];
-    }
-    // From where a point was: what is nowhere is at infinity, and moves with the camera alone.
-    void note_flow(std::size_t i, const RayQuery& ray, const std::optional<QueryHit>& hit) {
-        vec3 now = ray.along, before = ray.along;
-        if (hit) {
-            const BodyState& body = bodies_[hit->body];
-            const vec3 velocity = body.velocity + glm::cross(body.angular_velocity, hit->point - body.position);
-            now = hit->point - rays_.eye;
-            before = hit->point - velocity * seconds_ - rays_before_.eye;
-        } else if (rays_.orthographic) {
-            return;
-        }
-        const glm::vec2 moved = rays_.pixel_of(now) - rays_before_.pixel_of(before);  // exactly 0 where nothing moves
-        made.flow[2 * i] = moved.x;
-        made.flow[2 * i + 1] = moved.y;
-    }
-
-    const World& world_;
-    host::PixelRays rays_, rays_before_;
-    ChannelChoice choice_;
-    float seconds_;
-    std::size_t copy_;
-    std::vector<BodyState> bodies_;
-};
-
 }  // namespace
 
 RayQuery ray_through(const host::PixelRays& rays, float x, float y) {
@@ -103,9 +30,74 @@ float depth_along(const host::PixelRays& rays, const RayQuery& ray, float distan
     return static_cast<float>(glm::dot(from + along, glm::dvec3(rays.forward)));
 }
 
+ChannelMaker::ChannelMaker(const World& world, const host::PixelRays& rays, int width, int height, const ChannelChoice& choice,
+                           const Before& before)
+    : rays_(rays), rays_before_(host::pixel_rays(before.camera, width, height)), choice_(choice), seconds_(before.seconds) {
+    made.width = width;
+    made.height = height;
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (choice.depth) made.depth.resize(pixels, std::numeric_limits<float>::infinity());
+    if (choice.body) made.body.resize(pixels, -1);
+    if (choice.part) made.part.resize(pixels, -1);
+    if (choice.normal) made.normal.resize(3 * pixels);
+    if (choice.flow) made.flow.resize(2 * pixels);
+    if (choice.flow) bodies_ = world.bodies();
+}
+
+glm::vec2 ChannelMaker::centre_of(std::size_t pixel) const {
+    const auto width = static_cast<std::size_t>(made.width);
+    return {static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f};
+}
+
+void ChannelMaker::take(std::size_t pixel, const SeenPoint& seen) {
+    if (choice_.depth) made.depth[pixel] = seen.depth;
+    if (choice_.body) made.body[pixel] = static_cast<std::int32_t>(seen.body);
+    if (choice_.part) made.part[pixel] = static_cast<std::int32_t>(seen.part);
+    if (choice_.normal)
+        for (std::size_t k = 0; k < 3; ++k) made.normal[3 * pixel + k] = seen.normal[static_cast<glm::length_t>(k)];
+    if (!choice_.flow) return;
+    const BodyState& body = bodies_[seen.body];
+    const vec3 velocity = body.velocity + glm::cross(body.angular_velocity, seen.point - body.position);
+    note_flow(pixel, seen.point - rays_.eye, seen.point - velocity * seconds_ - rays_before_.eye);
+}
+
+// What is nowhere is at infinity, and moves with the camera alone.
+void ChannelMaker::take_nothing(std::size_t pixel) {
+    if (!choice_.flow || rays_.orthographic) return;
+    const glm::vec2 at = centre_of(pixel);
+    const vec3 along = ray_through(rays_, at.x, at.y).along;
+    note_flow(pixel, along, along);
+}
+
+void ChannelMaker::note_flow(std::size_t pixel, vec3 now, vec3 before) {
+    const glm::vec2 moved = rays_.pixel_of(now) - rays_before_.pixel_of(before);  // exactly 0 where nothing moves
+    made.flow[2 * pixel] = moved.x;
+    made.flow[2 * pixel + 1] = moved.y;
+}
+
 Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
                      const Before& before, std::size_t copy) {
-    return std::move(Casting(world, camera, width, height, choice, before, copy).made);
+    const host::PixelRays rays = host::pixel_rays(camera, width, height);
+    ChannelMaker maker(world, rays, width, height, choice, before);
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    std::vector<RayQuery> queries;
+    for (std::size_t first = 0; first < pixels; first += pixels_at_once) {
+        queries.clear();
+        for (std::size_t i = first; i < std::min(first + pixels_at_once, pixels); ++i) {
+            const glm::vec2 at = maker.centre_of(i);
+            queries.push_back(ray_through(rays, at.x, at.y));
+            queries.back().copy = copy;
+        }
+        const std::vector<std::optional<QueryHit>> hits = world.cast_rays(queries);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (const std::optional<QueryHit>& hit = hits[i])
+                maker.take(first + i,
+                           {hit->body, hit->part, depth_along(rays, queries[i], hit->distance), hit->point, hit->normal});
+            else
+                maker.take_nothing(first + i);
+        }
+    }
+    return std::move(maker.made);
 }
 
 std::vector<RayQuery> rays_through_pixels(const host::Camera& camera, int width, int height) {

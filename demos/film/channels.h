@@ -1,7 +1,8 @@
 // Channels of a picture besides colour: depth, bodies, parts, normals and flow, exact at every pixel's centre.
 //
-// They are cast as rays (World::cast_rays) through the pixels of the same camera, not drawn: surfaces are the shapes that
-// collide and not their triangles, and the values are the same bits on every backend and with any canvas.
+// Those of runs are drawn (demos/film/drawn_labels.h), and show what the picture shows. channels_of() casts them as rays
+// (World::cast_rays) through the pixels of the same camera, which needs no canvas: surfaces are the shapes that collide, and the
+// values are the same bits on every backend.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,7 @@
 
 #include "compute/world.h"
 #include "host/canvas/camera.h"
-
-namespace scree::host {
-struct PixelRays;  // host/canvas/frame.h
-}
+#include "host/canvas/frame.h"
 
 namespace scree::demos {
 
@@ -39,7 +37,33 @@ struct Before {
     float seconds = 0;  // ago. Bodies are taken to have moved with their present velocities
 };
 
-// Of one copy of the scene. Throws std::invalid_argument for a camera whose direction is undefined.
+// What is seen at a pixel.
+struct SeenPoint {
+    std::size_t body = 0, part = 0;
+    float depth = 0;  // m, along the optical axis from the eye
+    vec3 point{0}, normal{0};
+};
+
+// Fills channels pixel by pixel.
+class ChannelMaker {
+public:
+    ChannelMaker(const World& world, const host::PixelRays& rays, int width, int height, const ChannelChoice& choice,
+                 const Before& before);
+    void take(std::size_t pixel, const SeenPoint& seen);
+    void take_nothing(std::size_t pixel);  // where nothing is seen
+    glm::vec2 centre_of(std::size_t pixel) const;
+    Channels made;
+
+private:
+    void note_flow(std::size_t pixel, vec3 now, vec3 before);
+
+    host::PixelRays rays_, rays_before_;
+    ChannelChoice choice_;
+    float seconds_;
+    std::vector<BodyState> bodies_;  // for flow
+};
+
+// By rays, of one copy of the scene. Throws std::invalid_argument for a camera whose direction is undefined.
 Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
                      const Before& before, std::size_t copy = 0);
 

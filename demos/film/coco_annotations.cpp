@@ -38,8 +38,9 @@ CocoAnnotations::CocoAnnotations(const PictureOptions& options)
     file_.append("{\"annotations\": [");
 }
 
-void CocoAnnotations::add(const World& world, const host::Camera& camera) {
-    const Silhouettes seen = silhouettes_of(world, camera, width_, height_);
+void CocoAnnotations::add(DrawnLabels& drawn, const host::Camera& camera) {
+    const World& world = drawn.world();
+    const Silhouettes seen = silhouettes_of(drawn, camera, width_, height_);
     const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     std::string text;
     for (const Silhouette& one : seen.bodies) {

@@ -13,7 +13,7 @@ namespace scree::demos {
 class CocoAnnotations : public Annotations {
 public:
     explicit CocoAnnotations(const PictureOptions& options);
-    void add(const World& world, const host::Camera& camera) override;
+    void add(DrawnLabels& drawn, const host::Camera& camera) override;
     void finish() override;
 
 private:

@@ -124,6 +124,7 @@ struct Pictures::Impl {
     CameraTrack track;
     std::string cameras;  // file; may be empty
     std::optional<ChannelWriter> channels;
+    std::optional<DrawnLabels> labels{};   // of `drawing`
     std::vector<host::ExrLayer> layers{};  // of the picture that is being drawn
     std::unique_ptr<Annotations> annotations{};
     PictureTimes times;
@@ -172,6 +173,7 @@ struct Pictures::Impl {
     // A part of a picture, on every rank.
     void draw_part() {
         take();
+        labels.reset();
         drawing.reset();  // of the whole world
         const PartDrawing::Moment moment = part->look(camera.followed());
         const host::Camera view = camera.at(world.time(), moment.followed);
@@ -229,7 +231,9 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     const host::CanvasOptions canvas = canvas_for(options, subject, world);
     if (can_be_parts(options, subject, world)) in.part = PartDrawing::make(world, canvas);
     in.make_drawing = [&in, canvas, machine, shown, word = in.part ? "gl" : options.canvas, from_host = options.shutter > 0] {
+        in.labels.reset();
         in.drawing.emplace(word, machine, in.world, canvas, shown, from_host);
+        in.labels.emplace(in.world, *in.drawing, canvas.parts);
     };
     if (in.is_first()) in.writer = std::make_unique<host::FrameWriter>(writer);
     if (in.is_first() && !in.part) in.make_drawing();
@@ -277,8 +281,8 @@ void Pictures::after_step() {
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
         if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
         if (!in.past) in.draw(camera);
-        if (in.channels) in.layers = in.channels->add(in.world, camera);
-        if (in.annotations) in.annotations->add(in.world, camera);
+        if (in.channels) in.layers = in.channels->add(*in.labels, camera);
+        if (in.annotations) in.annotations->add(*in.labels, camera);
         if (in.past) in.draw_blurred(camera);
     });
     ++in.begun;

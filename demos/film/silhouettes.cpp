@@ -2,21 +2,17 @@
 #include "demos/film/silhouettes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "compute/scene/shape_geometry.h"
-#include "demos/film/channels.h"
 #include "host/canvas/frame.h"
 
 namespace scree::demos {
 
 namespace {
-
-// Rays in one batch: bounds the memory of what they meet.
-constexpr std::size_t rays_at_once = 1u << 16;
-constexpr std::uint32_t unseen = 0xFFFFFFFF;
 
 void add(PixelRuns& runs, std::uint32_t pixel) {
     if (!runs.empty() && runs.back().first + runs.back().count == pixel)
@@ -25,104 +21,93 @@ void add(PixelRuns& runs, std::uint32_t pixel) {
         runs.push_back({pixel, 1});
 }
 
+constexpr std::uint32_t unseen = 0xFFFFFFFF;
+
 class Looking {
 public:
-    Looking(const World& world, const host::Camera& camera, int width, int height)
-        : world_(world), rays_(host::pixel_rays(camera, width, height)), width_(width), height_(height), states_(world.bodies()) {
-        made.depth.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                          std::numeric_limits<float>::infinity());
+    Looking(DrawnLabels& drawn, const host::Camera& camera, int width, int height)
+        : drawn_(drawn),
+          world_(drawn.world()),
+          camera_(camera),
+          rays_(host::pixel_rays(camera, width, height)),
+          width_(width),
+          height_(height),
+          states_(world_.bodies()) {
         places_.assign(states_.size(), unseen);
         look_into_picture();
-        std::sort(made.bodies.begin(), made.bodies.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
-        for (std::uint32_t k = 0; k < made.bodies.size(); ++k) places_[made.bodies[k].body] = k;
         look_beyond_edges();
     }
 
     Silhouettes made;
 
 private:
-    bool is_wanted(std::size_t body) const { return world_.scene().bodies[body].motion == Motion::dynamic; }
-
-    // Calls take(pixel, hits) for each pixel in order.
-    template <class Take>
-    void cast(const std::vector<glm::ivec2>& pixels, const Take& take) const {
-        std::vector<RayQuery> queries;
-        queries.reserve(pixels.size());
-        for (const glm::ivec2 pixel : pixels)
-            queries.push_back(ray_through(rays_, static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f));
-        const QueryLists<QueryHit> hits = world_.cast_rays_through(queries);
-        for (std::size_t i = 0; i < pixels.size(); ++i) take(pixels[i], queries[i], hits[i]);
-    }
-
     void look_into_picture() {
-        std::vector<glm::ivec2> pixels;
-        const auto look = [&] {
-            cast(pixels, [&](glm::ivec2 pixel, const RayQuery& ray, std::span<const QueryHit> hits) { note(pixel, ray, hits); });
-            pixels.clear();
-        };
-        for (int x = 0; x < width_; ++x)
-            for (int y = 0; y < height_; ++y) {
-                pixels.emplace_back(x, y);
-                if (pixels.size() == rays_at_once) look();
+        const auto labels = drawn_.label(camera_, {.width = width_, .height = height_, .covers = true});
+        made.depth.reserve(labels->pixels.size());
+        for (const host::LabelledPixel& pixel : labels->pixels) made.depth.push_back(pixel.depth);
+        note_covers(labels->covers, {0, 0}, true);
+        const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
+        for (std::size_t x = 0; x < columns; ++x)
+            for (std::size_t y = 0; y < rows; ++y) {
+                const std::uint32_t row = labels->pixels[y * columns + x].row;
+                if (row == host::no_row) continue;
+                const std::uint32_t place = places_[drawn_.names()[row].body];
+                if (place != unseen) add(made.bodies[place].seen, static_cast<std::uint32_t>(x * rows + y));
             }
-        look();
-    }
-    void note(glm::ivec2 pixel, const RayQuery& ray, std::span<const QueryHit> hits) {
-        if (hits.empty()) return;
-        made.depth[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(pixel.x)] =
-            depth_along(rays_, ray, hits.front().distance);
-        const auto number =
-            static_cast<std::uint32_t>(pixel.x) * static_cast<std::uint32_t>(height_) + static_cast<std::uint32_t>(pixel.y);
-        for (const QueryHit& hit : hits) {
-            if (!is_wanted(hit.body)) continue;
-            if (places_[hit.body] == unseen) {
-                places_[hit.body] = static_cast<std::uint32_t>(made.bodies.size());
-                made.bodies.emplace_back().body = hit.body;
-            }
-            Silhouette& one = made.bodies[places_[hit.body]];
-            if (&hit == hits.data()) add(one.seen, number);
-            const bool known = !one.whole.empty() && one.whole.back().first + one.whole.back().count == number + 1;
-            if (known) continue;  // by another part
-            add(one.whole, number);
-            one.box.add(pixel);
-            ++one.pixels;
-        }
     }
 
-    // Beyond the edges a ray goes through each pixel that a ball around a body of the picture may cover.
+    // Beyond the edges the neighbouring pictures that a ball around a body of the picture may reach.
     void look_beyond_edges() {
-        const std::size_t columns = 3 * static_cast<std::size_t>(width_), rows = 3 * static_cast<std::size_t>(height_);
-        std::vector<std::uint8_t> marked;
+        std::array<bool, 9> wanted{};
         for (const Silhouette& one : made.bodies) {
             const PixelBox around = bounds_of(one.body);
-            if (around.least.x >= 0 && around.least.y >= 0 && around.greatest.x < width_ && around.greatest.y < height_) continue;
-            marked.resize(columns * rows);
-            for (int x = around.least.x; x <= around.greatest.x; ++x) {
-                const auto column = marked.begin() + static_cast<std::ptrdiff_t>(rows) * (x + width_) + height_;
-                std::fill(column + around.least.y, column + around.greatest.y + 1, std::uint8_t{1});
+            for (int x = -1; x <= 1; ++x)
+                for (int y = -1; y <= 1; ++y) {
+                    const glm::ivec2 begin(x * width_, y * height_);
+                    wanted[static_cast<std::size_t>(3 * x + y + 4)] |=
+                        around.least.x < begin.x + width_ && around.greatest.x >= begin.x && around.least.y < begin.y + height_ &&
+                        around.greatest.y >= begin.y;
+                }
+        }
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y) {
+                if (!wanted[static_cast<std::size_t>(3 * x + y + 4)] || (x == 0 && y == 0)) continue;
+                const host::LabelRequest request{
+                    .width = width_, .height = height_, .pixels = false, .covers = true, .shift = {x, y}};
+                note_covers(drawn_.label(camera_, request)->covers, request.shift, false);
             }
-        }
-        std::vector<glm::ivec2> pixels;
-        const auto look = [&] {
-            cast(pixels, [&](glm::ivec2 pixel, const RayQuery&, std::span<const QueryHit> hits) { note_beyond(pixel, hits); });
-            pixels.clear();
-        };
-        for (std::size_t i = 0; i < marked.size(); ++i) {
-            const glm::ivec2 pixel(static_cast<int>(i / rows) - width_, static_cast<int>(i % rows) - height_);
-            if (marked[i] == 0 || (pixel.x >= 0 && pixel.x < width_ && pixel.y >= 0 && pixel.y < height_)) continue;
-            pixels.push_back(pixel);
-            if (pixels.size() == rays_at_once) look();
-        }
-        if (!pixels.empty()) look();
     }
-    void note_beyond(glm::ivec2 pixel, std::span<const QueryHit> hits) {
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            const auto same = [&](const QueryHit& earlier) { return earlier.body == hits[i].body; };
-            if (places_[hits[i].body] == unseen || std::any_of(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i), same))
-                continue;
-            Silhouette& one = made.bodies[places_[hits[i].body]];
-            one.box.add(pixel);
-            ++one.pixels;
+
+    // What covers the pixels of a picture, each pixel of a body once.
+    void note_covers(const std::vector<host::Cover>& covers, glm::ivec2 shift, bool in_picture) {
+        const auto columns = static_cast<std::uint32_t>(width_), rows = static_cast<std::uint32_t>(height_);
+        std::vector<std::uint32_t> counts(states_.size() + 1);
+        std::vector<std::uint32_t> bodies(covers.size());
+        for (std::size_t i = 0; i < covers.size(); ++i) {
+            bodies[i] = static_cast<std::uint32_t>(drawn_.names()[covers[i].row].body);
+            ++counts[bodies[i] + 1];
+        }
+        std::partial_sum(counts.begin(), counts.end(), counts.begin());
+        std::vector<std::uint32_t> sorted(covers.size()), ends(counts.begin(), counts.end() - 1);
+        for (std::size_t i = 0; i < covers.size(); ++i)
+            sorted[ends[bodies[i]]++] = covers[i].pixel % columns * rows + covers[i].pixel / columns;
+        for (std::size_t body = 0; body + 1 < counts.size(); ++body) {
+            if (counts[body] == counts[body + 1]) continue;
+            const auto begin = sorted.begin() + counts[body];
+            auto end = sorted.begin() + counts[body + 1];
+            std::sort(begin, end);
+            end = std::unique(begin, end);
+            if (in_picture) {
+                places_[body] = static_cast<std::uint32_t>(made.bodies.size());
+                made.bodies.emplace_back().body = body;
+            }
+            if (places_[body] == unseen) continue;
+            Silhouette& one = made.bodies[places_[body]];
+            for (auto pixel = begin; pixel != end; ++pixel) {
+                if (in_picture) add(one.whole, *pixel);
+                one.box.add(glm::ivec2(*pixel / rows, *pixel % rows) + shift * glm::ivec2(width_, height_));
+            }
+            one.pixels += static_cast<std::size_t>(end - begin);
         }
     }
 
@@ -148,7 +133,9 @@ private:
         return box;
     }
 
+    DrawnLabels& drawn_;
     const World& world_;
+    host::Camera camera_;
     host::PixelRays rays_;
     int width_, height_;
     std::vector<BodyState> states_;
@@ -177,8 +164,8 @@ PixelBox box_of(const PixelRuns& runs, int height) {
     return box;
 }
 
-Silhouettes silhouettes_of(const World& world, const host::Camera& camera, int width, int height) {
-    return std::move(Looking(world, camera, width, height).made);
+Silhouettes silhouettes_of(DrawnLabels& drawn, const host::Camera& camera, int width, int height) {
+    return std::move(Looking(drawn, camera, width, height).made);
 }
 
 }  // namespace scree::demos

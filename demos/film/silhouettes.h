@@ -1,7 +1,7 @@
 // Where bodies are in a picture: the silhouette of each as if nothing hid it, and the part of it that is seen.
 //
-// Both come from rays through the pixels' centres (demos/film/channels.h), each followed through all that it meets: what is
-// seen are exactly the pixels of the channel `ids`, and the silhouette is that of the body alone.
+// Both are drawn with the labels of the picture (host/canvas/labels.h): what is seen are exactly the pixels of the channel `ids`,
+// and the silhouette is that of the body alone.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "compute/world.h"
+#include "demos/film/drawn_labels.h"
 #include "host/canvas/camera.h"
 
 namespace scree::demos {
@@ -43,7 +43,8 @@ struct Silhouettes {
     std::vector<Silhouette> bodies;  // dynamic ones with a pixel in the picture, seen or hidden, in order
 };
 
-// Throws std::invalid_argument for a camera whose direction is undefined.
-Silhouettes silhouettes_of(const World& world, const host::Camera& camera, int width, int height);
+// Of what the drawing shows. Throws std::invalid_argument for a camera whose direction is undefined, host::DeviceError where the
+// device draws no labels.
+Silhouettes silhouettes_of(DrawnLabels& drawn, const host::Camera& camera, int width, int height);
 
 }  // namespace scree::demos

@@ -145,6 +145,9 @@ public:
     virtual void compose(std::span<std::uint32_t> colors, std::span<const float> depths) = 0;
 };
 
+struct LabelRequest;  // host/canvas/labels.h
+struct Labels;
+
 class Canvas {
 public:
     virtual ~Canvas() = default;
@@ -170,6 +173,10 @@ public:
         begin(camera, scale, caption, scene_low, scene_high);
         return finish();
     }
+
+    // What pictures show, pixel by pixel: of the tables' present contents, also between begin() and finish(). Null where the
+    // device cannot tell. Throws std::invalid_argument for a camera whose direction is undefined.
+    virtual std::unique_ptr<Labels> label(const Camera& camera, const LabelRequest& request) = 0;
 
     // Whether draw_part() and set_bodies() work: without overlays, with one sample a pixel and 8 bits a channel.
     virtual bool draws_parts() const { return false; }

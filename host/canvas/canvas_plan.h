@@ -37,9 +37,10 @@ enum Binding : std::uint32_t {
     JOINTS,
     IDS,
     COLORS,
-    TEXELS  // texels_of()
+    TEXELS,  // texels_of()
+    COVERS   // what covers pixels (labels.h)
 };
-constexpr std::uint32_t BINDINGS = TEXELS + 1;
+constexpr std::uint32_t BINDINGS = COVERS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables

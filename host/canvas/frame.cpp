@@ -232,6 +232,23 @@ PixelRays pixel_rays(const Camera& camera, int width, int height) {
             vec3(frame.forward), frame.ray_corner.w,     camera.orthographic,   before};
 }
 
+Frame label_frame(const Camera& camera, int width, int height, glm::ivec2 shift) {
+    CanvasOptions options;
+    options.width = width;
+    options.height = height;
+    Frame frame{};
+    set_camera(frame, camera, options);
+    if (shift == glm::ivec2(0)) return frame;
+    mat4& m = frame.view_projection;
+    for (int k = 0; k < 4; ++k)
+        for (int axis = 0; axis < 2; ++axis) m[k][axis] -= 2 * static_cast<float>(shift[axis]) * m[k][3];
+    frame.ray_corner += vec4(
+        vec3(frame.ray_right) * static_cast<float>(width * shift.x) + vec3(frame.ray_down) * static_cast<float>(height * shift.y),
+        0);
+    for (vec4& side : frame.sides) side = vec4(0, 0, 0, 1e30f);  // these bound the camera's own picture
+    return frame;
+}
+
 glm::vec2 PixelRays::pixel_of(vec3 point) const {
     const float ahead = glm::dot(point, forward);
     if (!orthographic && !(ahead > 0)) return glm::vec2(std::numeric_limits<float>::infinity());

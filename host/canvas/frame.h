@@ -25,6 +25,10 @@ struct PixelRays {
 // Throws std::invalid_argument for a camera whose direction is undefined.
 PixelRays pixel_rays(const Camera& camera, int width, int height);
 
+// The camera alone, for labels. `shift`: of a picture so many pictures to the right of the camera's and below it.
+// Throws std::invalid_argument for a camera whose direction is undefined.
+Frame label_frame(const Camera& camera, int width, int height, glm::ivec2 shift);
+
 // Throws std::invalid_argument for a camera whose direction is undefined or an empty colour scale.
 Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOptions& options, vec3 scene_low, vec3 scene_high);
 

@@ -9,7 +9,11 @@ namespace scree::host {
 
 EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with) {
     EnabledFeatures found;
-    found.long_words = made_with.pEnabledFeatures && made_with.pEnabledFeatures->shaderInt64;
+    const auto note = [&](const VkPhysicalDeviceFeatures& features) {
+        found.long_words |= features.shaderInt64 == VK_TRUE;
+        found.fragment_stores |= features.fragmentStoresAndAtomics == VK_TRUE;
+    };
+    if (made_with.pEnabledFeatures) note(*made_with.pEnabledFeatures);
     for (auto* next = static_cast<const VkBaseInStructure*>(made_with.pNext); next; next = next->pNext) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
             const auto& features = *reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next);
@@ -22,7 +26,7 @@ EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with) {
             found.timelines |=
                 reinterpret_cast<const VkPhysicalDeviceTimelineSemaphoreFeatures*>(next)->timelineSemaphore == VK_TRUE;
         } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2) {
-            found.long_words |= reinterpret_cast<const VkPhysicalDeviceFeatures2*>(next)->features.shaderInt64 == VK_TRUE;
+            note(reinterpret_cast<const VkPhysicalDeviceFeatures2*>(next)->features);
         }
     }
     return found;

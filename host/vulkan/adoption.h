@@ -12,7 +12,8 @@ namespace scree::host {
 struct EnabledFeatures {
     bool addresses = false;
     bool timelines = false;
-    bool long_words = false;  // shaderInt64
+    bool long_words = false;       // shaderInt64
+    bool fragment_stores = false;  // fragmentStoresAndAtomics
 };
 EnabledFeatures enabled_features(const VkDeviceCreateInfo& made_with);
 

@@ -185,6 +185,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     addresses.pNext = &timelines;
     VkPhysicalDeviceFeatures turned_on{};
     turned_on.shaderInt64 = in.report.prefers_texels;
+    turned_on.fragmentStoresAndAtomics = in.report.has_fragment_stores;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &addresses;
@@ -222,6 +223,7 @@ std::shared_ptr<Device> Device::adopt(const HostDevice& made) {
     const EnabledFeatures enabled = enabled_features(*made.made_with);
     in.report.has_addresses = in.report.has_addresses && enabled.addresses;
     in.report.prefers_texels = in.report.prefers_texels && enabled.long_words;
+    in.report.has_fragment_stores = in.report.has_fragment_stores && enabled.fragment_stores;
     in.has_timelines = enabled.timelines;
     std::uint32_t count = 0;
     in.vk.vkGetPhysicalDeviceQueueFamilyProperties(made.physical, &count, nullptr);

@@ -39,6 +39,7 @@ struct DeviceReport {
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
     std::uint64_t largest_buffer = 0;   // of one allocation: maxMemoryAllocationSize and maxBufferSize, bytes
     bool has_addresses = false;         // buffer device address: buffers may exceed largest_binding
+    bool has_fragment_stores = false;   // fragment shaders may write lists, as labels of pictures need
     bool prefers_texels = false;        // texel buffer reads are faster than storage buffer reads (lavapipe)
     // Float controls for 32-bit floats (host/spirv/spirv.h). None is required, since + - * are correctly rounded
     // without them.

@@ -104,6 +104,7 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
         vk.vkGetPhysicalDeviceFeatures2(physical, &features);
         report.has_addresses = addresses.bufferDeviceAddress;
         report.prefers_texels = report.prefers_texels && features.features.shaderInt64;
+        report.has_fragment_stores = features.features.fragmentStoresAndAtomics;
     }
     report.can_preserve_denormals = floats.shaderDenormPreserveFloat32;
     report.can_preserve_specials = floats.shaderSignedZeroInfNanPreserveFloat32;

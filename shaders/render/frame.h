@@ -55,7 +55,7 @@ struct Frame {
                   // sleeping bodies
     vec4 rest;    // still steps before sleep, 0: never; duration of a step, s; finest grid cell, m; arrow length per m/s, s
     vec4 joints;  // acceleration of the lighter body that is the unit of a joint's colour, m/s^2; shift of the groups of contact
-                  // impulses (record_groups.h); 0; 0
+                  // impulses (record_groups.h); rows of pixels of which labels list all that covers them: first, end
     vec4 box_low;    // corner of the scene's box, from the eye, m; w: distance to which bodies cast shadows, m
     vec4 box_high;   // the other corner; w: half its diagonal, m
     vec4 sun_right;  // axes of the sun's map; w: the eye's coordinates on them, m

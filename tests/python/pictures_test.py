@@ -150,12 +150,16 @@ class CommandLine(unittest.TestCase):
             world = scree.World(scree.demo("mix", 50), backend="cpu")
             world.step(40)
             picture = world.render(world.camera, (96, 64), channels=("depth", "body", "normal"))
-            for name, channel in (("depth", "depth"), ("ids", "body"), ("normals", "normal")):
-                np.testing.assert_array_equal(np.load(os.path.join(frames, f"{name}_{count - 1:06}.npy")), picture[channel])
+            # Those of the program are drawn, those of Python rays: they differ on edges, and there in few pixels.
+            depth, ids, normals = (np.load(os.path.join(frames, f"{name}_{count - 1:06}.npy")) for name in ("depth", "ids", "normals"))
+            self.assertLess((ids != picture.body).mean(), 0.002)
+            same = (ids == picture.body) & (ids >= 0)
+            self.assertLess((np.abs(depth - picture.depth)[same] > 1e-4 * depth[same]).mean(), 0.002)
+            self.assertLess((np.abs(normals - picture.normal).max(axis=2)[same] > 5e-3).mean(), 0.002)
             import matplotlib.image
-            depth = matplotlib.image.imread(os.path.join(frames, f"depth_{count - 1:06}.png")) * 65535
-            near = np.isfinite(picture.depth) & (picture.depth < 60)
-            np.testing.assert_allclose(depth[near], picture.depth[near] * 1000, atol=1)
+            levels = matplotlib.image.imread(os.path.join(frames, f"depth_{count - 1:06}.png")) * 65535
+            near = np.isfinite(depth) & (depth < 60)
+            np.testing.assert_allclose(levels[near], depth[near] * 1000, atol=1)
 
     def test_channels_need_frames(self):
         run = subprocess.run([PROGRAM, "run", "mix", "--channels", "depth"], stderr=subprocess.PIPE, text=True, check=False)

@@ -174,7 +174,7 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
         .add_option("--channels", options.channels,
                     "Channels of each frame as files beside it, separated by commas: depth (m, along the optical axis), ids (of "
                     "bodies), parts (of compounds, triangles of meshes), normals (of the world), flow (pixels since the frame "
-                    "before). Exact at pixel centres, and the same bits on every backend; needs --frames.")
+                    "before). Of what the frame shows at pixel centres; needs --frames.")
         ->check(one_of(channel_words()))
         ->delimiter(',')
         ->expected(1)

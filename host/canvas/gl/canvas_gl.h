@@ -19,6 +19,7 @@ public:
     void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
     Image finish() override;
+    std::unique_ptr<Labels> label(const Camera& camera, const LabelRequest& request) override;
     bool draws_parts() const override;
     void set_bodies(const ShapeInstances& instances) override;
     Image draw_part(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high,

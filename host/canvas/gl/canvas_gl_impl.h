@@ -8,6 +8,7 @@
 #include "host/canvas/draw_geometry.h"
 #include "host/canvas/gl/canvas_gl.h"
 #include "host/canvas/gl/gl_context.h"
+#include "host/canvas/labels.h"
 
 namespace scree::host {
 
@@ -40,6 +41,15 @@ struct GlCanvas::Impl {
     std::array<Target, 2> shadow_maps;  // sun, sky
     Target scene, target;               // the bodies with `samples` samples, the final picture
     bool half_depth = false;            // clip space depth is 0..w, as in Vulkan
+    // Of labels, made when they are first asked for.
+    Target labels;
+    std::array<GLuint, 2> label_buffers{};  // labels, depth
+    std::vector<Program> label_programs;    // one per draw of label_draws()
+
+    bool has_labels() const;
+    void make_labels(int width, int height);
+    void draw_labels(const Frame& seen, bool pixels, bool with_covers) const;
+    std::unique_ptr<Labels> label(const Camera& camera, const LabelRequest& request);
 
     void make_state();
     void make_buffers();

@@ -32,9 +32,10 @@ namespace scree::host {
     X(glBindBufferBase, BINDBUFFERBASE) X(glBindFramebuffer, BINDFRAMEBUFFER) X(glBindRenderbuffer, BINDRENDERBUFFER) \
     X(glBindTexture, BINDTEXTURE) X(glBindVertexArray, BINDVERTEXARRAY) X(glBlendFuncSeparate, BLENDFUNCSEPARATE) \
     X(glBlitFramebuffer, BLITFRAMEBUFFER) X(glBufferData, BUFFERDATA) X(glBufferSubData, BUFFERSUBDATA) \
-    X(glCheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS) X(glColorMask, COLORMASK) X(glClear, CLEAR) X(glClearColor, CLEARCOLOR) \
+    X(glCheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS) X(glColorMask, COLORMASK) X(glClear, CLEAR) X(glClearBufferuiv, CLEARBUFFERUIV) X(glClearColor, CLEARCOLOR) \
     X(glClearDepthf, CLEARDEPTHF) X(glCompileShader, COMPILESHADER) X(glCreateProgram, CREATEPROGRAM) \
-    X(glCreateShader, CREATESHADER) X(glCullFace, CULLFACE) X(glDeleteShader, DELETESHADER) X(glDepthFunc, DEPTHFUNC) \
+    X(glCreateShader, CREATESHADER) X(glCullFace, CULLFACE) X(glDeleteShader, DELETESHADER) X(glDeleteFramebuffers, DELETEFRAMEBUFFERS) \
+    X(glDeleteRenderbuffers, DELETERENDERBUFFERS) X(glDepthFunc, DEPTHFUNC) \
     X(glDepthMask, DEPTHMASK) X(glDisable, DISABLE) X(glDispatchCompute, DISPATCHCOMPUTE) X(glDrawArraysInstanced, DRAWARRAYSINSTANCED) \
     X(glDrawElementsIndirect, DRAWELEMENTSINDIRECT) X(glMemoryBarrier, MEMORYBARRIER) \
     X(glDrawElementsInstanced, DRAWELEMENTSINSTANCED) X(glEnable, ENABLE) X(glFramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER) \

@@ -64,6 +64,8 @@ VkDescriptorBufferInfo VulkanCanvas::Impl::table_of(std::uint32_t binding, Color
             return all_of(tints);
         case TEXELS:
             return all_of(texels.bytes() > 0 ? texels : instances);
+        case COVERS:
+            return all_of(covers.bytes() > 0 ? covers : instances);
         default:
             break;
     }

@@ -20,6 +20,7 @@ public:
     void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
     Image finish() override;
+    std::unique_ptr<Labels> label(const Camera& camera, const LabelRequest& request) override;
 
     // As draw(), but leaves the picture on the device: 8-bit sRGB, of options().width x height pixels, in layout
     // TRANSFER_SRC_OPTIMAL, valid until the next drawing.

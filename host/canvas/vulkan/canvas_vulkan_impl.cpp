@@ -5,6 +5,7 @@
 
 #include "host/canvas/frame.h"
 #include "host/canvas/glyphs.h"
+#include "host/canvas/vulkan/labels_vulkan.h"
 
 namespace scree::host {
 namespace {

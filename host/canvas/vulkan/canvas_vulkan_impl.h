@@ -18,6 +18,8 @@ struct ShadowMap {
     int size = 0;  // texels
 };
 
+struct LabelTargets;  // labels_vulkan.cpp
+
 struct VulkanCanvas::Impl {
     Impl(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
     ~Impl();
@@ -33,6 +35,7 @@ struct VulkanCanvas::Impl {
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // device copies of tables in host memory
     Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints, texels;
+    Buffer covers;  // what covers pixels, for label()
     VulkanObjectPool objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -44,9 +47,12 @@ struct VulkanCanvas::Impl {
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence drawn = VK_NULL_HANDLE;
-    bool pending = false;            // a picture is being drawn
-    ColorBy by = ColorBy::momentum;  // of the last picture
+    bool pending = false;                  // a picture is being drawn
+    ColorBy by = ColorBy::momentum;        // of the last picture
+    std::unique_ptr<LabelTargets> labels;  // made when labels are first asked for
 
+    std::unique_ptr<Labels> label(const Camera& camera, const LabelRequest& request);
+    void draw_labels(const Frame& seen, bool pixels, bool with_covers);
     void make_buffers();
     void make_layout();
     void make_samplers();

@@ -99,7 +99,7 @@ struct FixedState {
         // edges in alpha.
         target.srcAlphaBlendFactor = shape.covers ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
         target.dstAlphaBlendFactor = shape.covers ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
-        target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;
+        target.colorWriteMask = shape.state.fragment.empty() || !shape.has_color ? 0 : 0xF;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         blend.attachmentCount = state.pass == Pass::sun_map || state.pass == Pass::sky_map ? 0 : 1;
         blend.pAttachments = &target;
@@ -124,15 +124,11 @@ VkRenderPass make_shadow_pass(VulkanObjectPool& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smooths, VkFormat format) {
-    const bool resolves = samples > 1;
-    std::array attachments{attachment(format, samples, !resolves,
-                                      resolves  ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
-                                      : smooths ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-                                                : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-                           attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-                           attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
-    attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+namespace {
+
+// Of a colour, depth and, if it `resolves`, the picture, which `reader` reads.
+VkRenderPass make_drawing_pass(VulkanObjectPool& objects, std::span<const VkAttachmentDescription> attachments, bool resolves,
+                               VkPipelineStageFlags reader, VkAccessFlags reading) {
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference picture{2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -143,15 +139,35 @@ VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smoo
     subpass.pDepthStencilAttachment = &depth;
     subpass.pResolveAttachments = resolves ? &picture : nullptr;
     constexpr VkPipelineStageFlags outputs = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_TESTS;
-    const VkPipelineStageFlags reader = smooths ? VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT : VK_PIPELINE_STAGE_TRANSFER_BIT;
-    const VkAccessFlags reading = smooths ? VK_ACCESS_SHADER_READ_BIT : VK_ACCESS_TRANSFER_READ_BIT;
     const std::array dependencies{
         VkSubpassDependency{VK_SUBPASS_EXTERNAL, 0, outputs | reader, outputs,
                             VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                             COLOR_ACCESS | DEPTH_ACCESS, 0},
         VkSubpassDependency{0, VK_SUBPASS_EXTERNAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, reader,
                             VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, reading, 0}};
-    return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
+    return make_pass(objects, attachments, subpass, dependencies);
+}
+
+}  // namespace
+
+VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smooths, VkFormat format) {
+    const bool resolves = samples > 1;
+    std::array attachments{attachment(format, samples, !resolves,
+                                      resolves  ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
+                                      : smooths ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                                : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+                           attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+                           attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+    attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    return make_drawing_pass(objects, std::span(attachments).first(resolves ? 3 : 2), resolves,
+                             smooths ? VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT : VK_PIPELINE_STAGE_TRANSFER_BIT,
+                             smooths ? VK_ACCESS_SHADER_READ_BIT : VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+VkRenderPass make_label_pass(VulkanObjectPool& objects) {
+    const std::array attachments{attachment(LABEL_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+                                 attachment(DEPTH_FORMAT, 1, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
+    return make_drawing_pass(objects, attachments, false, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
 }
 
 VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format) {

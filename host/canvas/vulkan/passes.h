@@ -19,6 +19,10 @@ VkRenderPass make_shadow_pass(VulkanObjectPool& objects);
 // the colour attachment is left ready for sampling by the smoothing shader (`smooths`), or to be copied.
 VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smooths, VkFormat format);
 
+// Attachments: labels (shaders/render/labels/label.h), ready to be copied, and depth.
+VkRenderPass make_label_pass(VulkanObjectPool& objects);
+constexpr VkFormat LABEL_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
+
 // One attachment: the picture, fully overwritten and left ready to be copied.
 VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format);
 
@@ -29,6 +33,7 @@ struct PipelineShape {
     int samples = 1;
     int width = 0, height = 0;  // pixels
     bool covers = false;        // blending adds to alpha
+    bool has_color = true;      // false: its fragments have no colour
 };
 VkPipeline make_pipeline(VulkanObjectPool& objects, const PipelineShape& shape);
 
