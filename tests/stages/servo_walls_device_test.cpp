@@ -11,7 +11,7 @@ using namespace scree;
 TEST_CASE("every stage gives the same bits on both processors while a servo wall presses on grains", "[vulkan][process:kinds]") {
     const Watched watched;
     const Scene scene = tests::Oedometer{.size = "0.16"}.document().scene;
-    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 60);
+    const LockstepResult result = compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 50);
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                  << result.detail);
     REQUIRE(result.equal);

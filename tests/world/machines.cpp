@@ -140,8 +140,8 @@ Scene screw(float pitch, float spin) {
     Body ball;
     ball.shape = Sphere{0.05f};
     ball.friction = 0;
-    ball.linear_damping = 1;  // so that it does not outrun the face that pushes it
-    ball.position = {2.5f * pitch, 0.071f, 0};
+    ball.linear_damping = 3;  // so that it does not outrun the face that pushes it
+    ball.position = {(spin > 0 ? 1.25f : 4.75f) * pitch, 0.071f, 0};
     scene.bodies.push_back(ball);
     return scene;
 }

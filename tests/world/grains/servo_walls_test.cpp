@@ -48,6 +48,7 @@ Scene alone(ServoWall wall) {
     Scene scene;
     Body body;
     body.shape = Box{{1, 0.5f, 1.5f}};
+    body.density = 1;
     scene.bodies.push_back(body);
     wall.body = 0;
     add_servo_wall(scene, wall);
@@ -60,7 +61,7 @@ TEST_CASE("servo walls: a bed of grains bears the stress that is asked for, to 1
     for (const char* density : {"1", "1000", "20000"}) {
         INFO("density " << density);
         World world(Oedometer{.density = density}.document().scene, awake(), 1);
-        world.step(150);
+        world.step(180);
         const Held now = held(world, 0.3f);
         CHECK(now.lid == Approx(5000).epsilon(0.002));
         CHECK(now.floor == Approx(5000).epsilon(0.002));
@@ -71,13 +72,13 @@ TEST_CASE("servo walls: a bed of grains bears the stress that is asked for, to 1
 }
 
 TEST_CASE("servo walls: the floor bears the stress and the weight of the grains, and no weight of the wall", "[grains]") {
-    const Scene scene = Oedometer{.gravity = "9.81", .form = R"({"polyhedron": {}})"}.document().scene;
+    const Scene scene = Oedometer{.gravity = "9.81", .form = R"({"polyhedron": {}})", .fill = "0.2"}.document().scene;
     double weight = 0;
     const Scene known = checked(scene);
     for (std::size_t i = Oedometer::lid + 1; i < known.bodies.size(); ++i)
         weight += 9.81 * static_cast<double>(mass_properties(known.bodies[i]).mass);
     World world(scene, awake(), 1);
-    world.step(150);
+    world.step(180);
     const Held now = held(world, 0.3f);
     CHECK(now.lid == Approx(5000).epsilon(0.002));
     CHECK(now.floor == Approx(5000 + weight / Oedometer::area).epsilon(0.002));
@@ -85,7 +86,7 @@ TEST_CASE("servo walls: the floor bears the stress and the weight of the grains,
 
 TEST_CASE("servo walls: another stress by the motor of the joint, in a file and in a program, also of sleepers", "[grains]") {
     const SceneDocument document =
-        Oedometer{.more = R"(, "events": [{"time": 3, "action": {"motor": {"joint": "lid", "speed": 1, "max_force": 2500}}}])"}
+        Oedometer{.more = R"(, "events": [{"time": 4, "action": {"motor": {"joint": "lid", "speed": 1, "max_force": 2500}}}])"}
             .document();
     World world(document.scene, {}, 1);
     const auto run = [&](int steps) {
@@ -94,10 +95,10 @@ TEST_CASE("servo walls: another stress by the motor of the joint, in a file and 
             world.step();
         }
     };
-    run(120);
+    run(180);
     CHECK(held(world, 0.3f).lid == Approx(5000).epsilon(0.01));
     const float before = world.body(Oedometer::lid).position.y;
-    REQUIRE(world.steps() == 180);
+    REQUIRE(world.steps() == 240);
     run(120);
     CHECK(held(world, 0.3f).lid == Approx(10000).epsilon(0.01));
     CHECK(world.body(Oedometer::lid).position.y < before);
@@ -160,7 +161,7 @@ TEST_CASE("servo walls: a file's have joints of their name, keep them when writt
     const std::string text = scene_to_json(document);
     CHECK(scene_to_json(scene_from_json(text)) == text);
     World world(document.scene, {}, 1);
-    world.step(60);
+    world.step(90);
     const auto mark = world.save();
     world.step(30);
     const std::uint64_t after = world.state_hash();
