@@ -68,7 +68,7 @@ double lean(const Trace& trace, const Trace::Moment& moment) {
     for (std::size_t i = 0; i < moment.bodies.size(); ++i)
         if (trace.scene.bodies[i].motion == Motion::dynamic)
             sum += static_cast<double>(mass_properties(trace.scene.bodies[i]).mass) * glm::dvec3(moment.bodies[i].position);
-    return std::atan2(sum.x, -sum.y) / static_cast<double>(degrees);
+    return portable::atan2(sum.x, -sum.y) / static_cast<double>(degrees);
 }
 double mean_lean(const Trace& trace) {
     double mean = 0;
@@ -83,7 +83,7 @@ double carried(const Trace& trace, const Drum& drum) {
         for (std::size_t i = 0; i < moment.bodies.size(); ++i) {
             if (trace.scene.bodies[i].motion != Motion::dynamic) continue;
             const vec3 at = moment.bodies[i].position, v = moment.bodies[i].velocity;
-            const double r = std::hypot(static_cast<double>(at.x), static_cast<double>(at.y));
+            const double r = std::sqrt(static_cast<double>(at.x * at.x + at.y * at.y));
             if (r < static_cast<double>(drum.radius - 0.6f * Drum::ball)) continue;
             shares.push_back(static_cast<double>(at.x * v.y - at.y * v.x) / (r * r * static_cast<double>(drum.spin)));
         }
