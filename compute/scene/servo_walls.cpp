@@ -54,16 +54,19 @@ void make_heavier(Body& body, double factor) {
         for (Part& part : compound->parts) part.density *= times;
 }
 
-// The body as a world has it; none if it is not valid, which the world tells.
-std::optional<Body> checked_alone(const Body& body) {
-    if (std::holds_alternative<Mesh>(body.shape)) return std::nullopt;  // perhaps a file that has not been read
+// The body as a world has it; none of a mesh, which may be a file that has not been read.
+std::optional<Body> checked_alone(const Body& body, std::size_t index) {
+    if (std::holds_alternative<Mesh>(body.shape)) return std::nullopt;
     Scene alone;
     alone.bodies.push_back(body);
     alone.bodies[0].fracture.reset();
     try {
         return checked(std::move(alone)).bodies.at(0);
-    } catch (const SceneError&) {
-        return std::nullopt;
+    } catch (const SceneError& error) {
+        const std::string inside = "/bodies/0", what = error.what();
+        if (!error.pointer.starts_with(inside)) throw;
+        throw SceneError("/bodies/" + std::to_string(index) + error.pointer.substr(inside.size()),
+                         what.substr(std::min(error.pointer.size() + 2, what.size())));
     }
 }
 
@@ -92,7 +95,7 @@ std::size_t add_servo_wall(Scene& scene, const ServoWall& wall, const std::strin
     const double length = std::sqrt(glm::dot(axis, axis));
     if (!(length > 1e-6)) refuse("/axis", "must not be of length 0");
 
-    const std::optional<Body> known = checked_alone(body);
+    const std::optional<Body> known = checked_alone(body, wall.body);
     double area = double{wall.area};
     if (!(area > 0) && known) area = shadow_of(*known, axis / length);
     if (!(area > 0)) refuse("/area", "is needed: only boxes and cylinders have an area of their own");

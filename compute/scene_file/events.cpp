@@ -8,6 +8,7 @@
 
 #include "compute/scene/portable_math.h"
 #include "compute/scene_file/pour.h"
+#include "compute/schema/range_text.h"
 
 namespace scree {
 
@@ -33,8 +34,8 @@ void shake_due(const ShakeEvent& shake, double begin, World& world) {
     if (now < first || (shake.duration > 0 && now > last)) return;
     const double rate = double{world.settings().rate}, half_turn = std::numbers::pi * double{shake.frequency} / rate;
     if (8 * double{shake.frequency} > rate)
-        throw std::invalid_argument("shaking with " + std::to_string(shake.frequency) + " Hz needs a rate of at least " +
-                                    std::to_string(8 * shake.frequency) + " steps per second");
+        throw std::invalid_argument("shaking with " + plain(double{shake.frequency}) + " Hz needs a rate of at least " +
+                                    plain(8 * double{shake.frequency}) + " steps per second");
     const double turns = double{shake.frequency} * static_cast<double>(now + 1 - first) / rate + double{shake.phase};
     const double speed = rate * portable::tan(half_turn) * portable::sin(2 * std::numbers::pi * (turns - std::floor(turns)));
     const bool stops = shake.duration > 0 && now == last;

@@ -194,6 +194,11 @@ TEST_CASE("servo walls: what is none is refused, by its place", "[grains]") {
     CHECK_THAT(refused(R"({"body": "lid", "stress": 5, "gain": 1e-20})"), Contains("/servo_walls/0/gain: must be at least area"));
     CHECK_THAT(refused(R"({"body": "lid", "stress": 5, "axis": [0, 0, 0]})"), Contains("/servo_walls/0/axis"));
     CHECK_THAT(refused(R"({"body": "ball", "stress": 5})"), Contains("/servo_walls/0/area: is needed"));
+    CHECK_THAT(tests::refusal_of([] {
+                   scene_from_json(R"({"bodies": [{"shape": {"sphere": {"radius": 1}}}, {"orientation": [0, 0, 0, 0],
+                       "shape": {"box": {"half_extents": [1, 1, 1]}}}], "servo_walls": [{"body": 1, "stress": 5}]})");
+               }),
+               Contains("/bodies/1/orientation"));
     CHECK_THAT(refused(R"({"body": 2, "stress": 5})"), Contains("/servo_walls/0/body: must be a dynamic body"));
     CHECK_THAT(refused(R"({"body": 9, "stress": 5})"), Contains("/servo_walls/0/body: there is no body 9"));
     CHECK_THAT(refused(R"({"body": "door", "stress": 5})"), Contains("/servo_walls/0/body: is held by joint 0 already"));
