@@ -144,7 +144,7 @@ class Bonds(unittest.TestCase):
         scene = scree.Scene()
         scene.add(scree.Plane())
         scene.add(scree.Box((.3, .3, .3)), position=(0, .3, 0))
-        lid = int(scene.add(scree.Box((.25, .05, .25)), position=(0, 1, 0), name="lid")[0])
+        lid = scene.add(scree.Box((.25, .05, .25)), position=(0, 1, 0), name="lid")
         joint = scene.add_servo_wall("lid", stress=4e3, max_speed=1)
         self.assertEqual(scene.joint_names[joint], "lid")
         world = scree.World(scene, backend="cpu", sleeping=False)
@@ -157,7 +157,7 @@ class Bonds(unittest.TestCase):
         other = scene.add(scree.Sphere(.1), position=(3, 1, 0))
         for keys, pointer in (({"stress": -1}, "/servo_walls/0/stress"), ({"stress": 1}, "/servo_walls/0/area")):
             with self.assertRaises(scree.SceneError) as raised:
-                scene.add_servo_wall(int(other[0]), **keys)
+                scene.add_servo_wall(other, **keys)
             self.assertEqual(raised.exception.pointer, pointer)
         with self.assertRaises(TypeError):
             scene.add_servo_wall("lid", stress=1, speed=1)
