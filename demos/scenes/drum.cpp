@@ -117,7 +117,7 @@ DemoScene drum(const DemoOptions& options) {
         promise.also(because(between("lean of the bed", 30, 50, "degrees",
                                      "angle of its centre of mass from below the axis, mean of the second half", mean_lean),
                              any_number));
-        promise.also(because(at_most("change of this lean", 5, "degrees", "greatest from its mean, in the second half",
+        promise.also(because(at_most("change of this lean", 7, "degrees", "greatest from its mean, in the second half",
                                      [](const Trace& trace) {
                                          const double mean = mean_lean(trace);
                                          double most = 0;
