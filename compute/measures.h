@@ -7,9 +7,9 @@
 //     measuring.after_step(world);  // only gates need it, after each step
 //     const scree::Measures now = measuring.take(world);
 //
-// Grains are the solid dynamic bodies that exist. All other bodies are walls: they have contacts, and no volume, mass or
-// motion here. Forces are those of the last substep of the last step. Sums are taken in integers, or in the order of
-// bodies: no order of contacts, no backend and no number of threads changes a bit. demos/docs/guide/measures.md has the
+// Grains are the solid dynamic bodies that exist and that no joint holds. All other bodies are walls: they have contacts, and no
+// volume, mass or motion here. Forces are those of the last substep of the last step. Sums are taken in integers, or in the order
+// of bodies: no order of contacts, no backend and no number of threads changes a bit. demos/docs/guide/measures.md has the
 // definitions.
 #pragma once
 

@@ -41,15 +41,24 @@ Touch touch_of(const ContactState& contact) {
 
 }  // namespace
 
+std::vector<std::uint8_t> held_by_joints(const Scene& scene) {
+    std::vector<std::uint8_t> held(scene.bodies.size(), 0);
+    for (const Joint& joint : scene.joints)
+        for (const std::size_t body : {joint.a, joint.b})
+            if (!joint.broken && body < held.size()) held[body] = 1;
+    return held;
+}
+
 void Scan::take_grains(const World& world, std::size_t first, std::size_t last) {
     const Scene& scene = world.scene();
     const State& state = world.state();
     states = world.bodies();
     grain_of.assign(scene.bodies.size(), no_grain);
+    const std::vector<std::uint8_t> held = held_by_joints(scene);
     for (std::size_t i = first; i < last; ++i) {
         const Body& body = scene.bodies[i];
         const BodyState& now = states[i];
-        if (body.motion != Motion::dynamic || body.role != Role::solid || !now.exists || now.quarantined) continue;
+        if (body.motion != Motion::dynamic || body.role != Role::solid || !now.exists || now.quarantined || held[i]) continue;
         Grain grain{i, dvec3(now.position), dvec3(now.velocity)};
         grain.solids = solids_of(body, grain.position, now.orientation);
         if (grain.solids.empty()) continue;

@@ -8,6 +8,7 @@
 #include "compute/schema/bonding.h"
 #include "compute/schema/field.h"
 #include "compute/schema/scene.h"
+#include "compute/schema/servo_wall.h"
 #include "compute/schema/settings.h"
 
 namespace scree::schema {
@@ -54,6 +55,8 @@ inline constexpr auto table<SceneDocument> = table_of(
     field("grains", &SceneDocument::grains, at_least(0), "grains", "Grains, which follow the bodies when the file is read"),
     field("bonds", &SceneDocument::bonds, at_least(0), "bonds",
           "Bonds of all bodies that are near each other, which become bond_pairs when the file is read"),
+    field("servo_walls", &SceneDocument::servo_walls, at_least(0), "walls",
+          "Walls that hold a stress, which become dynamic bodies on joints when the file is read"),
     field("measures", &SceneDocument::measures, "What a run measures of its grains"));
 
 }  // namespace scree::schema

@@ -2,10 +2,13 @@
 #include "compute/scene_file/events.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "compute/scene/portable_math.h"
 #include "compute/scene_file/pour.h"
+#include "compute/schema/range_text.h"
 
 namespace scree {
 
@@ -15,9 +18,28 @@ namespace {
     throw SceneError("/events/" + std::to_string(event) + inside, reason);
 }
 
-// Whether a moment belongs to the world's next step: the one whose start is nearest.
+// The step whose start is nearest to a moment.
+std::int64_t step_at(double seconds, const World& world) {
+    return std::llround(seconds * static_cast<double>(world.settings().rate));
+}
 bool is_due(double seconds, const World& world) {
-    return static_cast<std::uint64_t>(std::llround(seconds * static_cast<double>(world.settings().rate))) == world.steps();
+    return step_at(seconds, world) == static_cast<std::int64_t>(world.steps());
+}
+
+// The velocity at the end of the world's next step. A kinematic body takes it up evenly, so that its way is the sum of the
+// trapezoids under the sine; with this factor that sum is way / 2 (1 - cos).
+void shake_due(const ShakeEvent& shake, double begin, World& world) {
+    const std::int64_t first = step_at(begin, world), now = static_cast<std::int64_t>(world.steps());
+    const std::int64_t last = step_at(begin + static_cast<double>(shake.duration), world) - 1;
+    if (now < first || (shake.duration > 0 && now > last)) return;
+    const double rate = double{world.settings().rate}, half_turn = std::numbers::pi * double{shake.frequency} / rate;
+    if (8 * double{shake.frequency} > rate)
+        throw std::invalid_argument("shaking with " + plain(double{shake.frequency}) + " Hz needs a rate of at least " +
+                                    plain(8 * double{shake.frequency}) + " steps per second");
+    const double turns = double{shake.frequency} * static_cast<double>(now + 1 - first) / rate + double{shake.phase};
+    const double speed = rate * portable::tan(half_turn) * portable::sin(2 * std::numbers::pi * (turns - std::floor(turns)));
+    const bool stops = shake.duration > 0 && now == last;
+    world.set_velocity(shake.body, stops ? vec3(0) : static_cast<float>(speed) * shake.way, vec3(0));
 }
 
 // The present index of a joint of the scene: removed joints lower those above them.
@@ -58,6 +80,7 @@ struct Performance {
     }
     void operator()(const GravityEvent& event) const { world.set_gravity(event.gravity); }
     void operator()(const PourEvent&) const {}  // in every step from then on
+    void operator()(const ShakeEvent&) const {}
 };
 
 // What an action needs of the scene.
@@ -69,6 +92,7 @@ struct Check {
     void operator()(const ImpulseEvent& event) const { require_motion(event.body, "impulse", true, false); }
     void operator()(const VelocityEvent& event) const { require_motion(event.body, "velocity", true, true); }
     void operator()(const GlideEvent& event) const { require_motion(event.body, "glide", false, true); }
+    void operator()(const ShakeEvent& event) const { require_motion(event.body, "shake", false, true); }
     void operator()(const ExplosionEvent&) const {}
     void operator()(const ReleaseEvent& event) const {
         require_joint(event.joint, "release");
@@ -140,11 +164,14 @@ void perform_due(const std::vector<TimedEvent>& events, World& world) {
     for (std::size_t i = 0; i < events.size(); ++i) {
         const auto* glide = std::get_if<GlideEvent>(&events[i].action);
         const auto* pour = std::get_if<PourEvent>(&events[i].action);
+        const auto* shake = std::get_if<ShakeEvent>(&events[i].action);
         const bool arrives = glide && is_due(static_cast<double>(events[i].time) + static_cast<double>(glide->duration), world);
-        if (!arrives && !pour && !is_due(events[i].time, world)) continue;
+        if (!arrives && !pour && !shake && !is_due(events[i].time, world)) continue;
         try {
             if (pour)
                 pour_due(pour->grains, events[i].time, world);
+            else if (shake)
+                shake_due(*shake, events[i].time, world);
             else if (arrives)
                 world.set_velocity(glide->body, vec3(0), vec3(0));
             else
@@ -173,6 +200,15 @@ std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, con
         next.time -= now;
         auto* glide = std::get_if<GlideEvent>(&next.action);
         const bool under_way = glide && next.time < 0 && next.time + glide->duration > 0;
+        if (auto* shake = std::get_if<ShakeEvent>(&next.action); shake && next.time < 0) {
+            if (shake->duration > 0 && !(next.time + shake->duration > 0)) continue;
+            const float turns = shake->phase - next.time * shake->frequency;
+            shake->phase = turns - std::floor(turns);
+            if (shake->duration > 0) shake->duration += next.time;
+            next.time = 0;
+            coming.push_back(next);
+            continue;
+        }
         if (auto* pour = std::get_if<PourEvent>(&next.action); pour && next.time < 0) {
             pour->grains.from = poured(pour->grains, world.scene());
             next.time = 0;

@@ -52,8 +52,17 @@ struct PourEvent {
     Grains grains{};
 };
 
-using EventAction =
-    std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent, PourEvent>;
+// Swings a kinematic body along a way and back, as a sine, and does not turn it: sieves, shakers.
+struct ShakeEvent {
+    std::size_t body = no_body;
+    vec3 way{0};          // m, from where it is to where it turns back
+    float frequency = 1;  // Hz, at most an eighth of the steps in a second
+    float duration = 0;   // s, after which it stops; 0: never
+    float phase = 0;      // part of a period that has passed when it begins, 0 to 1
+};
+
+using EventAction = std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent,
+                                 PourEvent, ShakeEvent>;
 
 struct TimedEvent {
     float time = 0;  // s

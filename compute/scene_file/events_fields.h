@@ -10,8 +10,8 @@
 namespace scree::schema {
 
 template <>
-inline constexpr auto alternatives<EventAction> = Alternatives<8>{
-    "event_action", "action", {"impulse", "velocity", "glide", "explosion", "release", "motor", "gravity", "pour"}};
+inline constexpr auto alternatives<EventAction> = Alternatives<9>{
+    "event_action", "action", {"impulse", "velocity", "glide", "explosion", "release", "motor", "gravity", "pour", "shake"}};
 
 template <>
 inline constexpr auto table<ImpulseEvent> =
@@ -54,6 +54,15 @@ inline constexpr auto table<GravityEvent> =
              field("gravity", &GravityEvent::gravity, within(1e4), "m/s^2", "Acceleration of free fall").required());
 template <>
 inline constexpr auto table<PourEvent> = table_of("pour_event", "Pours grains from its time on", field("", &PourEvent::grains));
+
+template <>
+inline constexpr auto table<ShakeEvent> = table_of(
+    "shake_event", "Swings a kinematic body along a way and back, as a sine",
+    field("body", &ShakeEvent::body, {}, "", "Index or name").required().index_of(Refers::to_body),
+    field("way", &ShakeEvent::way, within(1e6), "m", "From where it is to where it turns back").required(),
+    field("frequency", &ShakeEvent::frequency, above(0, 125), "Hz", "At most an eighth of the steps in a second").required(),
+    field("duration", &ShakeEvent::duration, between(0, 1e6), "s", "Time after which it stops; 0: never"),
+    field("phase", &ShakeEvent::phase, between(0, 1), "", "Part of a period that has passed when it begins"));
 
 template <>
 inline constexpr auto table<TimedEvent> =

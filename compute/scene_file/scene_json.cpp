@@ -96,6 +96,14 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     }
 }
 
+// Each becomes a joint that has its name, so that events may refer to it.
+void read_servo_walls(const json& rest, const Place& root, NamedThings& named, SceneDocument& document) {
+    read_field(rest, root, schema::field_of(&SceneDocument::servo_walls), document, named);
+    const std::vector<ServoWall> all = std::exchange(document.servo_walls, {});
+    for (std::size_t i = 0; i < all.size(); ++i) add_servo_wall(document.scene, all[i], "/servo_walls/" + std::to_string(i));
+    if (!all.empty()) named.joints = numbers_of(document.scene.joints);
+}
+
 // Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
 class Listener {
 public:
@@ -150,6 +158,7 @@ void read_around(const json& rest, SceneDocument& document) {
     read_field(rest, root, schema::field_of(&Scene::gravity), scene, {});
     NamedThings named{numbers_of(scene.bodies), {}};
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
+    read_servo_walls(rest, root, named, document);
     read_field(rest, root, schema::field_of(&Scene::vehicles), scene, named);
     read_field(rest, root, schema::field_of(&Scene::exclusions), scene, named);
     read_field(rest, root, schema::field_of(&Scene::bonds), scene, named);
@@ -162,7 +171,8 @@ bool refers_to_bodies(const json& rest) {
     const auto names_any = [&](const char* key) { return rest.contains(key) && !rest[key].empty(); };
     const bool follows = rest.contains("camera") && rest["camera"].is_object() && rest["camera"].contains("follow");
     return follows || names_any("joints") || names_any("vehicles") || names_any("exclusions") || names_any("events") ||
-           names_any("grains") || names_any("bonds") || names_any("bond_pairs") || names_any("measures");
+           names_any("grains") || names_any("bonds") || names_any("bond_pairs") || names_any("servo_walls") ||
+           names_any("measures");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "compute/scene_file/events.h"
 #include "compute/scene_file/picture_style.h"
 #include "compute/scene_stream.h"
+#include "compute/servo_walls.h"
 #include "compute/settings.h"
 
 namespace scree {
@@ -58,7 +59,8 @@ struct SceneDocument {
     // Until add_grains(): grains to come. Reading a file has done that.
     std::vector<FileGrains> grains{};
     std::optional<MeasureRequest> measures{};
-    std::vector<Bonding> bonds{};  // likewise, until add_bonds()
+    std::vector<Bonding> bonds{};          // likewise, until add_bonds()
+    std::vector<ServoWall> servo_walls{};  // of a file; reading it has made them joints
 };
 
 // Takes the document's bonds, which bond bodies of its scene. Throws SceneError, its pointer by the index in the list.

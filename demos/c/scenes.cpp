@@ -35,7 +35,7 @@ const std::vector<std::pair<std::string, KeysOf>>& described() {
         {"vehicle", &keys_of<Vehicle>},   {"filter", &keys_of<Filter>},        {"material", &keys_of<Material>},
         {"fields", &keys_of<Fields>},     {"fracture", &keys_of<Fracture>},    {"tyre", &keys_of<Tyre>},
         {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>},
-        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>}};
+        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>},        {"servo_walls", &keys_of<ServoWall>}};
     return all;
 }
 
@@ -240,6 +240,11 @@ const std::vector<std::pair<std::string, Add>>& additions() {
              const std::size_t first = to.document.scene.bonds.size();
              add_bonds(to.document.scene, next_of(to.document.bonds, "bonds", value, to.document.scene));
              return first;
+         }},
+        {"servo_walls",
+         [](SceneObject& to, const json& value) {
+             Scene& scene = to.document.scene;
+             return add_servo_wall(scene, next_of(to.document.servo_walls, "servo_walls", value, scene));
          }},
         {"exclusions", [](SceneObject& to, const json& value) { return add_exclusion(to.document.scene, value); }},
         {"cars", [](SceneObject& to, const json& value) { return add_car_of(to.document.scene, value); }},

@@ -144,8 +144,9 @@ SCREE_API scree_result scree_scene_demo(const char* name, size_t bodies, uint64_
  * or of a vector of three or four. first: index of the first. */
 SCREE_API scree_result scree_scene_add_bodies(scree_scene* scene, const char* body_json, size_t count,
                                               const scree_column* columns, size_t column_count, size_t* first);
-/* list: "joints", "vehicles", "events", "exclusions" ([a, b]), "grains", "bonds", or the presets "cars" and "carts". index: in
- * the list, of grains that of the first body, or of the event that pours them, of bonds the first; may be null. */
+/* list: "joints", "vehicles", "events", "exclusions" ([a, b]), "grains", "bonds", "servo_walls", or the presets "cars" and
+ * "carts". index: in the list, of grains that of the first body, or of the event that pours them, of bonds the first, of a servo
+ * wall that of its joint; may be null. */
 SCREE_API scree_result scree_scene_add(scree_scene* scene, const char* list, const char* json, size_t* index);
 /* key: "settings", "picture", "camera", "fields", "gravity", "duration". null as JSON takes settings, picture and camera away. */
 SCREE_API scree_result scree_scene_set(scree_scene* scene, const char* key, const char* json);

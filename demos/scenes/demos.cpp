@@ -41,6 +41,7 @@ const std::vector<Demo>& all_demos() {
         {"net", "a net of balls on joints falls over a round post", 900, true, net},
         {"hopper", "grains by a sieve curve run out of a hopper, at a constant rate", 4000, true, hopper},
         {"ballast", "a sleeper on railway ballast bears a load that comes and goes", 3000, true, ballast},
+        {"drum", "a drum turns, and balls cascade in it at an angle that stays", 3000, true, drum},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},

@@ -83,6 +83,7 @@ DemoScene gables(const DemoOptions&);
 DemoScene net(const DemoOptions&);
 DemoScene hopper(const DemoOptions&);
 DemoScene ballast(const DemoOptions&);
+DemoScene drum(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);

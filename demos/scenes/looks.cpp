@@ -63,6 +63,7 @@ const std::vector<Look>& looks() {
         {"fountain", by(speed, 9)},
         {"hopper", by(speed, 5)},
         {"ballast", by(contact_impulse, 20)},
+        {"drum", by(speed, 2)},
     };
     return all;
 }

@@ -69,6 +69,21 @@ TEST_CASE("c: grains are added to a scene, and poured in by a world's steps") {
     CHECK(world.info().bodies > 32);
 }
 
+TEST_CASE("c: a servo wall of a scene is a joint, which presses on what it meets") {
+    const Scene scene = balls(0);
+    std::size_t lid = 0, joint = 9;
+    ok(scree_scene_add_bodies(scene, R"({"shape": {"box": {"half_extents": [1, 0.1, 1]}}, "position": [0, 1, 0]})", 1, nullptr, 0,
+                              &lid));
+    const std::string wall = R"({"body": )" + std::to_string(lid);
+    ok(scree_scene_add(scene, "servo_walls", (wall + R"(, "stress": 500, "max_speed": 1})").c_str(), &joint));
+    CHECK(joint == 0);
+    CHECK(scree_scene_add(scene, "servo_walls", (wall + R"(, "stress": 500})").c_str(), &joint) == SCREE_BAD_SCENE);
+    CHECK(joint == 0);
+    const World world(scene);
+    world.step(120);
+    CHECK(rows_of(world)[lid].position[1] == Approx(0.1).margin(0.01));
+}
+
 TEST_CASE("c: columns are read and set by their strides, and nothing beside them is touched") {
     const World world(balls(3));
     std::vector<Row> rows = rows_of(world);

@@ -17,8 +17,8 @@ const std::vector<std::string> standing = {"tower",      "stack20", "stack80", "
 const std::vector<std::string> moving = {
     "onset", "hold",     "steep", "rolling", "bounce",    "tumbling", "swarm", "shots",  "strikes", "solids",  "compounds",
     "feet",  "rollmesh", "yaw",   "spins",   "turntable", "blows",    "pairs", "plough", "arches",  "capstan", "joinedshots"};
-const std::vector<std::string> heaps = {"pile",    "mix",  "avalanche", "assortment", "mix1m",  "bins",   "overlap",
-                                        "terrain", "mesh", "calm",      "fountain",   "hopper", "ballast"};
+const std::vector<std::string> heaps = {"pile",    "mix",  "avalanche", "assortment", "mix1m",  "bins",    "overlap",
+                                        "terrain", "mesh", "calm",      "fountain",   "hopper", "ballast", "drum"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> monuments = {"gables", "net", "ring"};
 const std::vector<std::string> sleepers = {"pile1m"};

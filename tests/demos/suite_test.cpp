@@ -229,7 +229,7 @@ TEST_CASE("suite: every promise says what it limits and how that is measured") {
 
 TEST_CASE("demos of any number of bodies have as many dynamic ones as they are asked for") {
     for (const char* name : {"pile", "mix", "assortment", "avalanche", "terrain", "mesh", "calm", "mix1m", "hulls1m", "overlap",
-                             "hopper", "ballast"}) {
+                             "hopper", "ballast", "drum"}) {
         const demos::DemoScene built = demos::build(*demos::find_demo(name), {.bodies = 23});
         INFO(name);
         CHECK(std::ranges::count_if(built.scene.bodies, [](const Body& b) { return b.motion == Motion::dynamic; }) == 23);

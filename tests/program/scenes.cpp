@@ -30,7 +30,7 @@ std::vector<std::string> demo_names() {
 
 std::string few_bodies(const std::string& name) {
     const bool many = name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "terrain" ||
-                      name == "ragdolls" || name == "hopper" || name == "ballast";
+                      name == "ragdolls" || name == "hopper" || name == "ballast" || name == "drum";
     return many ? " --bodies 300" : "";
 }
 

@@ -140,6 +140,28 @@ class Bonds(unittest.TestCase):
         with self.assertRaises(TypeError):
             scene.add_bonds(tensoin=1)
 
+    def test_a_servo_wall_presses_with_its_stress(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        scene.add(scree.Box((.3, .3, .3)), position=(0, .3, 0))
+        lid = scene.add(scree.Box((.25, .05, .25)), position=(0, 1, 0), name="lid")
+        joint = scene.add_servo_wall("lid", stress=4e3, max_speed=1)
+        self.assertEqual(scene.joint_names[joint], "lid")
+        world = scree.World(scene, backend="cpu", sleeping=False)
+        world.set_measures(bodies=[lid])
+        world.run(seconds=2)
+        self.assertAlmostEqual(world.measures().bodies.row("lid")["force"][1] / .25, 4e3, delta=8)
+        world.set_motor(joint, 1, 6e3 * .25)
+        world.run(seconds=1)
+        self.assertAlmostEqual(world.measures().bodies.row("lid")["force"][1] / .25, 6e3, delta=12)
+        other = scene.add(scree.Sphere(.1), position=(3, 1, 0))
+        for keys, pointer in (({"stress": -1}, "/servo_walls/0/stress"), ({"stress": 1}, "/servo_walls/0/area")):
+            with self.assertRaises(scree.SceneError) as raised:
+                scene.add_servo_wall(other, **keys)
+            self.assertEqual(raised.exception.pointer, pointer)
+        with self.assertRaises(TypeError):
+            scene.add_servo_wall("lid", stress=1, speed=1)
+
 
 class Imports(unittest.TestCase):
     def test_a_robot_of_a_urdf_and_one_of_mjcf(self):

@@ -176,6 +176,9 @@ class Description:
     def add_bonds(self, bonds: str) -> int:
         return self._add("bonds", bonds)
 
+    def add_servo_wall(self, wall: str) -> int:
+        return self._add("servo_walls", wall)
+
     def add_exclusion(self, a: int, b: int) -> None:
         self._add("exclusions", json.dumps([a, b]))
 

@@ -222,9 +222,21 @@ class Scene(Bodies[_native.Description]):
         require_keys(keys, _native.keys("bonds"), "bonds")
         self._native.add_bonds(json_text({key: value for key, value in keys.items() if value is not None}, "/bonds/0"))
 
+    # ---- servo walls
+    def add_servo_wall(self, body: Union[int, str], stress: float, axis: Vector = (0.0, -1.0, 0.0), **keys: Any) -> int:
+        """Makes a dynamic body a wall that presses along an axis with a stress, Pa, and returns the index of its joint.
+
+        area (m^2), max_speed (m/s), gain (m/(s Pa)), name: as of "servo_walls" in a scene file. World.set_motor of the joint
+        with max_force = stress * area asks for another stress.
+        """
+        require_keys(keys, _native.keys("servo_walls"), "a servo wall")
+        given = {"body": self[body], "stress": number(stress, "stress"), "axis": triple(axis, "axis"), **keys}
+        return self._native.add_servo_wall(json_text({key: value for key, value in given.items() if value is not None}, "/servo_walls/0"))
+
     # ---- how it is run and shown
     def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:
-        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity, pour.
+        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity, pour,
+        shake.
 
         scene.at(3, impulse={"body": "ball", "impulse": [900, 1500, 0]}), with the keys of scene files.
         """
