@@ -69,6 +69,8 @@ struct GranularCase {
 
 std::vector<GranularCase> column_cases();
 std::vector<GranularCase> discharge_cases();
+std::vector<GranularCase> heap_cases();
+std::vector<GranularCase> cut_cases();
 std::vector<GranularCase> all_granular_cases();
 
 struct GranularResult {
