@@ -70,6 +70,7 @@ struct GranularCase {
 std::vector<GranularCase> column_cases();
 std::vector<GranularCase> discharge_cases();
 std::vector<GranularCase> heap_cases();
+std::vector<GranularCase> drum_cases();
 std::vector<GranularCase> cut_cases();
 std::vector<GranularCase> all_granular_cases();
 

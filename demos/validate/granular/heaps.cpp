@@ -37,7 +37,7 @@ Body grain_of_kind(const GrainSupply& supply, std::size_t index, GrainKind kind)
 
 // ---- a heap on a round table of fixed balls, whose edge what is too much falls from
 constexpr std::size_t heap_grains = 750;
-constexpr float table = 8 * d;  // its radius
+constexpr float table_radius = 8 * d;
 
 Scene rough_table(float radius) {
     Scene scene;
@@ -78,7 +78,7 @@ std::vector<PlotPoint> profile_of(const World& world, float radius) {
 }
 
 std::vector<PlotPoint> heap_of(const GranularLab& lab, std::uint64_t seed, GrainKind kind) {
-    const float radius = table * static_cast<float>(lab.scale(heap_grains));
+    const float radius = table_radius * static_cast<float>(lab.scale(heap_grains));
     World world = lab.world(rough_table(radius), 120, 8);
     const std::size_t count = lab.options().bodies > 0 ? lab.options().bodies : heap_grains;
     const GrainSupply supply(grains_of_kind(kind, count, seed, 0.5f));
@@ -126,7 +126,7 @@ double slope_of(const std::vector<PlotPoint>& profile, double radius) {
 
 GranularMeasured repose(const GranularLab& lab, std::uint64_t seed) {
     GranularMeasured measured;
-    const double radius = static_cast<double>(table) * lab.scale(heap_grains);
+    const double radius = static_cast<double>(table_radius) * lab.scale(heap_grains);
     for (const auto& [kind, name] : {std::pair(GrainKind::spheres, "spheres"), std::pair(GrainKind::irregular, "irregular"),
                                      std::pair(GrainKind::cubes, "cubes")}) {
         std::vector<PlotPoint> profile = heap_of(lab, seed, kind);
