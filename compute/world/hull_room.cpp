@@ -61,7 +61,14 @@ void World::Impl::free_hulls(std::map<std::uint32_t, std::uint32_t> records) {
     const auto keep = [&](std::uint32_t place, std::uint32_t) { records.erase(place); };  // shared with a body that stays
     for (std::uint32_t row = 0; row < state.fixed().bodies; ++row) for_records_of(state, row, shapes_at_start.hulls, keep);
     std::erase_if(state.shape_places.hulls, [&](const auto& one) { return records.contains(one.second); });
-    for (const auto& [place, count] : records) add_run(spare_hulls, place, count);
+    TableRanges emptied;
+    for (const auto& [place, count] : records) {
+        add_run(spare_hulls, place, count);
+        // Or an equal hull that comes later would be found there (SceneCompiler::place_of), and another one written over it.
+        std::fill_n(state.hulls.begin() + place, count, physics::uvec4(0));
+        emptied.push_back({Table::hulls, place, count});
+    }
+    runner->upload(emptied);
 }
 
 // What a new body appended moves to where others were.

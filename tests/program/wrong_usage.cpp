@@ -103,6 +103,19 @@ TEST_CASE("program: an unknown option or value is answered with what is known", 
     require_refused(run_scree(""), {"--help"});
 }
 
+TEST_CASE("program: wrong names and numbers of granular cases are refused before anything runs", "[program]") {
+    const Place place;
+    const std::string plots = (place.path() / "plots").string();
+    require_refused(run_scree("validate granular jansen --plots '" + plots + "'"), {"\"jansen\"", "janssen", "beverloo"});
+    require_refused(run_scree("validate granular column --seeds 0"), {"--seeds", "1"});
+    require_refused(run_scree("validate granular column --bodies few"), {"--bodies", "few"});
+    require_refused(run_scree("validate granular column --bodies 20"), {"--bodies", "100"});
+    require_refused(run_scree("validate slide --seeds 2"), {"--seeds", "granular"});
+    require_refused(run_scree("validate granular --list --plots '" + plots + "'"), {"--list", "--plots"});
+    require_refused(run_scree("validate granular column --plots '" + place.write("file", "") + "'"), {"--plots", "file"});
+    REQUIRE_FALSE(std::filesystem::exists(plots));
+}
+
 TEST_CASE("program: a scene file that is not there or not JSON is refused with line and column", "[program]") {
     require_refused(run_scree("run no/such/scene.json"), {"no/such/scene.json", "No such file"});
     require_scene_refused("{\"bodies\": [\n  {\"shape\": }\n]}", {"line 2, column 13", "not valid JSON"});
