@@ -28,10 +28,6 @@ LAW uint copy_of_id(uint id, Parameters parameters) {
     return quotient(id, parameters.bodies_of_copy);
 }
 #endif
-LAW Parameters with_gravity(Parameters parameters, vec3 gravity) {
-    parameters.gravity = gravity;
-    return parameters;
-}
 
 LAWS_END
 
