@@ -81,7 +81,7 @@ TEST_CASE("scene file: settings, duration, camera motion, picture and events are
     for (const auto& [key, value] : written.items()) CHECK(schema["properties"].contains(key));
     CHECK(schema["$defs"]["picture"]["properties"]["show"]["items"]["enum"].size() == 7);
     CHECK(schema["$defs"]["settings"]["properties"]["substeps"]["default"] == 12);
-    CHECK(schema["$defs"]["event_action"]["properties"].size() == 8);
+    CHECK(schema["$defs"]["event_action"]["properties"].size() == 9);
     // What is left out stays left out.
     CHECK(scene_to_json(scene_from_json(scene_with(""))).find("settings") == std::string::npos);
 }

@@ -71,7 +71,7 @@ Placed give_shape(Body& body, const Shapes& shapes, const std::vector<std::optio
     body.filter = filters[usual->collides_as];
     if (!usual->solid) body.role = usual->sensor ? Role::sensor : Role::drawn;
     if (shapes.geometries.size() == 1 && !usual->parts) {
-        body.shape = whole_shape(usual->shape);
+        body.shape = usual->terrain ? *usual->terrain : whole_shape(usual->shape);
         return shapes.placed[0];
     }
     Compound compound;
@@ -175,6 +175,10 @@ SolidMass completed(const Carried& carried, const Origin& at, Notes& notes) {
 void add_moving(Assembly& all, std::size_t index, const Carried& carried, const ModelMotion& start,
                 const std::vector<std::optional<Filter>>& filters) {
     const ModelBody& from = all.model.bodies[index];
+    const std::vector<const Geometry*>& geometries = carried.shapes.geometries;
+    for (const Geometry* one : geometries)
+        if (one->terrain && (!from.kinematic || geometries.size() > 1))
+            refuse(one->origin, "terrain stands still, or is the only shape of a kinematic body, and its body moves");
     Body body{.name = from.name, .motion = from.kinematic ? Motion::kinematic : Motion::dynamic};
     const Placed frame = all.frames[index] = give_shape(body, carried.shapes, filters);
     place(body, all.root * start.placed * frame);
@@ -185,6 +189,9 @@ void add_moving(Assembly& all, std::size_t index, const Carried& carried, const 
         body.velocity = vec3(all.root.turn * start.velocity_at(start.placed * mass.centre));
         body.angular_velocity = vec3(all.root.turn * start.spin);
         body.gravity_scale = from.gravity_scale;
+    } else {
+        body.velocity = vec3(all.root.turn * start.velocity_at(start.placed * frame.position));
+        body.angular_velocity = vec3(all.root.turn * start.spin);
     }
     all.bodies[index] = {all.scene.bodies.size()};
     all.origins.push_back(from.origin);
@@ -206,7 +213,6 @@ void add_all_bodies(Assembly& all) {
         carried[owner].mass = sum_of(carried[owner].mass, placed_mass(body.mass, within));
         carried[owner].mass_of_shapes = sum_of(carried[owner].mass_of_shapes, placed_mass(body.mass_of_shapes, within));
         for (const Geometry& one : body.geometries) {
-            if (one.terrain) refuse(one.origin, "terrain stands still, and its body moves");
             carried[owner].shapes.geometries.push_back(&one);
             carried[owner].shapes.placed.push_back(owner == b ? one.placed : within * one.placed);
         }

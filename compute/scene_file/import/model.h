@@ -21,7 +21,7 @@ struct Geometry {
     std::string name;
     SimpleShape shape = Box{};
     std::shared_ptr<const Compound> parts{};  // instead of it, convex parts of a mesh, which is their skin; null: none
-    std::shared_ptr<const Shape> terrain{};   // instead of it, a height field or mesh that nothing moves; null: none
+    std::shared_ptr<const Shape> terrain{};   // instead of it, a height field or mesh, of nothing dynamic; null: none
     Placed placed;                            // the shape's own frame in the body
     bool solid = true;                        // else only drawn, or
     bool sensor = false;                      // a sensor

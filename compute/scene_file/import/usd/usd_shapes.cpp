@@ -197,7 +197,11 @@ void Shapes::add_mesh(const UsdCollider& collider, Geometry like, SolidMass& mas
     like.placed = placed_of(frame_in_body(collider));
     const glm::dmat4 frame = matrix_of(inverse(like.placed)) * frame_in_body(collider);
     map_mesh({dmat3(frame), dvec3(frame[3])}, vertices_, triangles_);
-    if (collider.body != world_body || how == "convexHull") return add_pieces(collider, like, how, mass);
+    const auto shapes = std::count_if(found_.colliders.begin(), found_.colliders.end(),
+                                      [&](const UsdCollider& one) { return one.body == collider.body && !(one.density < 0); });
+    const bool stays =
+        collider.body == world_body || (model_.bodies[collider.body].kinematic && shapes == 1 && how == "none");  // as a surface
+    if (!stays || how == "convexHull") return add_pieces(collider, like, how, mass);
     like.terrain = std::make_shared<Shape>(Mesh{vertices_, triangles_});
     keep(collider, std::move(like));
 }
