@@ -87,6 +87,8 @@ TEST_CASE("demos: scenes written with UsdPhysics are read within 0.1 mm") {
             REQUIRE(found != read.end());
             farthest = std::max(farthest, moved_apart(body, *found->second));
             ++compared;
+            CHECK(glm::length(body.angular_velocity - found->second->angular_velocity) <=
+                  1e-4f * glm::length(body.angular_velocity));
             if (body.motion == Motion::dynamic) {
                 const MassProperties a = mass_properties(body), b = mass_properties(*found->second);
                 if (std::abs(a.mass - b.mass) > 1e-4f * a.mass ||

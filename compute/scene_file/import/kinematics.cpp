@@ -6,7 +6,7 @@ namespace scree::imports {
 
 ModelMotion moved(const ModelMotion& parent, const ModelBody& body, bool at_start, std::size_t joints) {
     ModelMotion at{parent.placed * (at_start ? body.start.value_or(body.placed) : body.placed), parent.spin, parent.sweep};
-    if (body.free && at_start) {
+    if ((body.free || body.kinematic) && at_start) {
         at.spin = at.placed.turn * body.spin;
         at.sweep = body.velocity - glm::cross(at.spin, at.placed.position);
     }

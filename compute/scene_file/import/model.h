@@ -61,7 +61,7 @@ struct ModelBody {
     std::vector<Geometry> geometries;
     SolidMass mass;              // in the body's frame
     SolidMass mass_of_shapes;    // at a usual density, for what moves with no mass or no moments of inertia of its own
-    dvec3 velocity{0}, spin{0};  // of a free body: m/s; rad/s, its own axes
+    dvec3 velocity{0}, spin{0};  // of a free or kinematic body: m/s; rad/s, its own axes
     float gravity_scale = 1;
 };
 
