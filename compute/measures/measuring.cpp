@@ -62,15 +62,14 @@ void Measuring::Impl::look(const World& world) {
     const bool goes_on = world.steps() > looked_at;
     looked_at = world.steps();
     const std::vector<BodyState> states = world.bodies();
-    const std::vector<std::uint8_t> held = granular::held_by_joints(scene);
+    const std::vector<std::uint8_t> is_grain = granular::grains_among(world, states);
     const State& state = world.state();
     before.resize(states.size());
     const bool several = world.copies() > 1;
     const std::size_t count = world.bodies_of_copy(), first = several ? copy * count : 0;
     for (std::size_t i = first; i < (several ? first + count : states.size()); ++i) {
         const BodyState& now = states[i];
-        const bool grain = scene.bodies[i].motion == Motion::dynamic && scene.bodies[i].role == Role::solid && now.exists &&
-                           !now.quarantined && !held[i];
+        const bool grain = is_grain[i] != 0;
         const bool same = grain && before[i].there && before[i].generation == generations[i];
         const double inverse = double{state.properties[state.row_of(i)].inverse_mass};
         if (goes_on && same && inverse > 0) cross(before[i].position, dvec3(now.position), 1 / inverse);

@@ -41,12 +41,16 @@ Touch touch_of(const ContactState& contact) {
 
 }  // namespace
 
-std::vector<std::uint8_t> held_by_joints(const Scene& scene) {
-    std::vector<std::uint8_t> held(scene.bodies.size(), 0);
+std::vector<std::uint8_t> grains_among(const World& world, const std::vector<BodyState>& states) {
+    const Scene& scene = world.scene();
+    std::vector<std::uint8_t> grains(scene.bodies.size(), 0);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        grains[i] = scene.bodies[i].motion == Motion::dynamic && scene.bodies[i].role == Role::solid && states[i].exists &&
+                    !states[i].quarantined;
     for (const Joint& joint : scene.joints)
         for (const std::size_t body : {joint.a, joint.b})
-            if (!joint.broken && body < held.size()) held[body] = 1;
-    return held;
+            if (!joint.broken && body < grains.size()) grains[body] = 0;
+    return grains;
 }
 
 void Scan::take_grains(const World& world, std::size_t first, std::size_t last) {
@@ -54,11 +58,11 @@ void Scan::take_grains(const World& world, std::size_t first, std::size_t last) 
     const State& state = world.state();
     states = world.bodies();
     grain_of.assign(scene.bodies.size(), no_grain);
-    const std::vector<std::uint8_t> held = held_by_joints(scene);
+    const std::vector<std::uint8_t> is_grain = grains_among(world, states);
     for (std::size_t i = first; i < last; ++i) {
         const Body& body = scene.bodies[i];
         const BodyState& now = states[i];
-        if (body.motion != Motion::dynamic || body.role != Role::solid || !now.exists || now.quarantined || held[i]) continue;
+        if (is_grain[i] == 0) continue;
         Grain grain{i, dvec3(now.position), dvec3(now.velocity)};
         grain.solids = solids_of(body, grain.position, now.orientation);
         if (grain.solids.empty()) continue;

@@ -36,8 +36,9 @@ struct Units {
     double force = 1, branch = 1, mass = 1, speed = 1, way = 1, volume = 1, diameter = 1;
 };
 
-// By body: whether a joint holds it, which makes it a machine's part and no grain.
-std::vector<std::uint8_t> held_by_joints(const Scene& scene);
+// By body, 1 or 0: solid dynamic bodies that exist are grains, unless a joint makes them a machine's part. `states`:
+// world.bodies().
+std::vector<std::uint8_t> grains_among(const World& world, const std::vector<BodyState>& states);
 
 constexpr std::size_t no_grain = static_cast<std::size_t>(-1);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compute/replay/replay.h"
+#include "compute/scene/error_reason.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/scene_json.h"
@@ -174,8 +175,7 @@ Body added_body(const json& value, const Place& place) {
         return checked(Scene{vec3(0), {body}}).bodies.front();
     } catch (const SceneError& error) {
         const std::string inside = std::string_view(error.pointer).starts_with("/bodies/0") ? error.pointer.substr(9) : "";
-        const std::string reason = std::string(error.what()).substr(error.pointer.empty() ? 0 : error.pointer.size() + 2);
-        throw SceneError(place.pointer() + inside, reason);
+        throw SceneError(place.pointer() + inside, reason_of(error));
     }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/scene/error_reason.h"
 #include "compute/scene/portable_math.h"
 #include "compute/scene/validation/bond_validation.h"
 #include "compute/scene/validation/validator.h"
@@ -42,8 +43,7 @@ std::size_t add_bonds(Scene& scene, const Bonding& bonding, const std::string& p
         Bonding values = bonding;
         schema::check_fields(Examination{}, values);
     } catch (const SceneError& error) {
-        const std::string what = error.what();
-        throw SceneError(place + error.pointer, what.substr(std::min(what.size(), error.pointer.size() + 2)));
+        throw SceneError(place + error.pointer, reason_of(error));
     }
     const bool balls_only = std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
         return std::holds_alternative<Sphere>(body.shape) || std::holds_alternative<Plane>(body.shape);

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene/error_reason.h"
 #include "compute/scene/validation/validator.h"
 #include "compute/schema/check.h"
 #include "compute/schema/servo_wall.h"
@@ -63,10 +64,9 @@ std::optional<Body> checked_alone(const Body& body, std::size_t index) {
     try {
         return checked(std::move(alone)).bodies.at(0);
     } catch (const SceneError& error) {
-        const std::string inside = "/bodies/0", what = error.what();
+        const std::string inside = "/bodies/0";
         if (!error.pointer.starts_with(inside)) throw;
-        throw SceneError("/bodies/" + std::to_string(index) + error.pointer.substr(inside.size()),
-                         what.substr(std::min(error.pointer.size() + 2, what.size())));
+        throw SceneError("/bodies/" + std::to_string(index) + error.pointer.substr(inside.size()), reason_of(error));
     }
 }
 
@@ -77,8 +77,7 @@ std::size_t add_servo_wall(Scene& scene, const ServoWall& wall, const std::strin
     try {
         schema::check_fields(Examination{}, asked);
     } catch (const SceneError& error) {
-        const std::string what = error.what();
-        throw SceneError(place + error.pointer, what.substr(std::min(what.size(), error.pointer.size() + 2)));
+        throw SceneError(place + error.pointer, reason_of(error));
     }
     const auto refuse = [&](const char* key, const std::string& reason) { throw SceneError(place + key, reason); };
     if (!(wall.stress > 0)) refuse("/stress", "must be above 0 Pa");

@@ -8,6 +8,7 @@
 
 #include "compute/compile/scene_compiler.h"
 #include "compute/compile/state_editor.h"
+#include "compute/scene/error_reason.h"
 #include "compute/scene/fracture.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/body/compound.h"
@@ -115,9 +116,7 @@ std::vector<std::vector<Body>> World::Impl::checked_families(std::span<const Bod
             families.push_back(checked(Scene{scene.gravity, {std::move(together.bodies[i])}, {}}).bodies);
         } catch (const SceneError& error) {
             const std::string inside = error.pointer.substr(std::string("/bodies/0").size());
-            const std::string reason =
-                std::string(error.what()).substr(std::min(error.pointer.size() + 2, std::string(error.what()).size()));
-            throw SceneError("/bodies/" + std::to_string(i) + inside, reason);
+            throw SceneError("/bodies/" + std::to_string(i) + inside, reason_of(error));
         }
     }
     return families;

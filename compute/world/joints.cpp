@@ -8,6 +8,7 @@
 
 #include "compute/compile/joint_blocks.h"
 #include "compute/compile/state_editor.h"
+#include "compute/scene/error_reason.h"
 #include "compute/scene/validation/joint_validation.h"
 #include "compute/world/world_impl.h"
 
@@ -300,7 +301,7 @@ void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
     try {
         check_couplings(scene);
     } catch (const SceneError& error) {
-        throw SceneError("/joints/0", std::string(error.what()).substr(error.pointer.size() + 2));
+        throw SceneError("/joints/0", reason_of(error));
     }
 }
 
@@ -315,8 +316,7 @@ std::size_t World::add_joint(const Joint& joint) {
     } catch (const SceneError& error) {
         in.scene.joints.pop_back();
         const std::string first = "/joints/0";
-        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(first.size()),
-                         std::string(error.what()).substr(error.pointer.size() + 2));
+        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(first.size()), reason_of(error));
     }
     in.count_joints();
     in.rejoin();

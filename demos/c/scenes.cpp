@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/scene/error_reason.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/load_scene.h"
@@ -137,10 +138,9 @@ std::size_t add_joint(Scene& scene, const json& value) {
         NamedThings named;
         read_joints(json::array({value}), named, scene);
     } catch (const SceneError& error) {
-        const std::string inside = "/joints/0", what = error.what();
+        const std::string inside = "/joints/0";
         if (error.pointer.compare(0, inside.size(), inside) != 0) throw;
-        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(inside.size()),
-                         what.substr(std::min(error.pointer.size() + 2, what.size())));
+        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(inside.size()), reason_of(error));
     }
     return index;
 }

@@ -94,6 +94,25 @@ const std::string scene_text = R"({"gravity": [0, -9.81, 0], "settings": {"subst
     "joints": [{"kind": {"hinge": {"limits": {"lower": 0, "upper": 1.6}}}, "a": "a", "b": "ground", "anchor": [0, 1, 0], "axis": [0, 1, 0]}],
     "events": [{"time": 1, "action": {"impulse": {"body": "a", "impulse": [9, 15, 0]}}}]})";
 
+using Formats = std::vector<std::pair<std::string, std::string>>;  // names and texts of files
+
+void check_mutants_of(const Formats& formats, int usual) {
+    const int count = imported::mutants(usual);
+    Case file;
+    for (const auto& [name, text] : formats) {
+        INFO(name);
+        REQUIRE(file.refusal(name, text).empty());
+        imported::check_mutants(
+            file, name, count, [&text = text](std::mt19937& random) { return mutated(text, random); },
+            [](int seed) {
+                ImportOptions options;
+                if (seed % 3 == 0) options.keyframe = "0";
+                if (seed % 5 == 0) options.ground = true, options.base = ImportedBase::free;
+                return options;
+            });
+    }
+}
+
 }  // namespace
 
 TEST_CASE("imports: mutated scene files are read or refused with a place") {
@@ -138,8 +157,21 @@ TEST_CASE("imports: a hundred thousand keys, and a key of twenty million letters
     CHECK(static_cast<double>(std::clock() - start) < 3 * tests::slowness * CLOCKS_PER_SEC);  // of the processor
 }
 
-TEST_CASE("imports: mutated files are read or refused with file and place") {
-    const int count = imported::mutants(400);
+TEST_CASE("imports: mutated robots are read or refused with file and place") {
+    check_mutants_of({{"a.xml", text_of_file("quadruped.xml")},
+                      {"b.xml", text_of_file("everything.xml")},
+                      {"a.urdf", text_of_file("arm.urdf")}},
+                     400);
+}
+
+TEST_CASE("imports: mutated glTF files are read or refused with file and place") {
+    check_mutants_of({{"a.gltf", text_of_file("physics.gltf")},
+                      {"a.glb", glb_of(text_of_file("physics.gltf"))},
+                      {"b.gltf", text_of_file("stretched.gltf")}},
+                     400);
+}
+
+TEST_CASE("imports: mutated mesh files are read or refused with file and place") {
     std::string stl(84, ' ');
     stl[80] = 4, stl[81] = stl[82] = stl[83] = 0;
     const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -152,26 +184,5 @@ TEST_CASE("imports: mutated files are read or refused with file and place") {
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
         "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nouter loop\nvertex 1 0 0\nvertex 0 1 "
         "0\nvertex 0 0 1\nendloop\nendsolid\n";
-    const std::pair<std::string, std::string> formats[] = {{"a.xml", text_of_file("quadruped.xml")},
-                                                           {"b.xml", text_of_file("everything.xml")},
-                                                           {"a.urdf", text_of_file("arm.urdf")},
-                                                           {"a.gltf", text_of_file("physics.gltf")},
-                                                           {"a.glb", glb_of(text_of_file("physics.gltf"))},
-                                                           {"b.gltf", text_of_file("stretched.gltf")},
-                                                           {"a.obj", cube_obj()},
-                                                           {"a.stl", stl},
-                                                           {"b.stl", ascii}};
-    Case file;
-    for (const auto& [name, text] : formats) {
-        INFO(name);
-        REQUIRE(file.refusal(name, text).empty());
-        imported::check_mutants(
-            file, name, count, [&text = text](std::mt19937& random) { return mutated(text, random); },
-            [](int seed) {
-                ImportOptions options;
-                if (seed % 3 == 0) options.keyframe = "0";
-                if (seed % 5 == 0) options.ground = true, options.base = ImportedBase::free;
-                return options;
-            });
-    }
+    check_mutants_of({{"a.obj", cube_obj()}, {"a.stl", stl}, {"b.stl", ascii}}, 100);  // each is cut into parts, too
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compute/scene/error_reason.h"
 #include "compute/scene/meshes/hull.h"
 #include "compute/scene/portable_math.h"
 #include "compute/scene/random.h"
@@ -148,8 +149,7 @@ UnitGrain unit_hull(const std::vector<vec3>& points, const std::string& place) {
     try {
         scene = checked(std::move(scene));
     } catch (const SceneError& error) {
-        const std::string what = error.what();
-        throw SceneError(place, what.substr(std::min(what.size(), error.pointer.size() + 2)));
+        throw SceneError(place, reason_of(error));
     }
     const HullForm& form = *std::get<Hull>(scene.bodies.front().shape).form;
     const double size = smallest_hole(form.vertices);

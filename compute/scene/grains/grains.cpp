@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compute/scene/double_quaternion.h"
+#include "compute/scene/error_reason.h"
 #include "compute/scene/grains/grain_shapes.h"
 #include "compute/scene/grains/grain_stacks.h"
 #include "compute/scene/portable_math.h"
@@ -111,9 +112,8 @@ void GrainSupply::Impl::make_classes(std::vector<GrainClass>& classes) {
             try {
                 scene = checked(std::move(scene));
             } catch (const SceneError& error) {
-                const std::string what = error.what();
                 throw SceneError(place, "a grain of this shape and a size of " + plain(one.low) + " to " + plain(one.high) +
-                                            " m cannot be: " + what.substr(std::min(what.size(), error.pointer.size() + 2)));
+                                            " m cannot be: " + reason_of(error));
             }
             for (const Body& body : scene.bodies) reach = std::max(reach, static_cast<double>(bounding_radius(body.shape)));
             if (std::holds_alternative<Hull>(units[s].front().shape))

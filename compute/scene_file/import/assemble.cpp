@@ -178,7 +178,7 @@ void add_moving(Assembly& all, std::size_t index, const Carried& carried, const 
     const std::vector<const Geometry*>& geometries = carried.shapes.geometries;
     for (const Geometry* one : geometries)
         if (one->terrain && (!from.kinematic || geometries.size() > 1))
-            refuse(one->origin, "terrain stands still, or is the only shape of a kinematic body, and its body moves");
+            refuse(one->origin, "a height field or mesh that moves must be the only shape of a kinematic body");
     Body body{.name = from.name, .motion = from.kinematic ? Motion::kinematic : Motion::dynamic};
     const Placed frame = all.frames[index] = give_shape(body, carried.shapes, filters);
     place(body, all.root * start.placed * frame);

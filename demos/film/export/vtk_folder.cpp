@@ -157,12 +157,12 @@ VtkPolyData VtkFolder::Impl::grains(const World& world, const std::vector<BodySt
     std::vector<float> radius, mass, orientation, velocity, spin, stress, pressure;
     std::vector<std::int32_t> coordination, shape;
     std::vector<std::uint8_t> rattler, asleep;
-    const std::vector<std::uint8_t> held = granular::held_by_joints(world.scene());
+    const std::vector<std::uint8_t> is_grain = granular::grains_among(world, states);
     const auto append = [](std::vector<float>& to, const auto& v) { to.insert(to.end(), &v.x, &v.x + v.length()); };
     for (std::size_t i = 0; i < states.size(); ++i) {
         const Body& body = world.scene().bodies[i];
         const BodyState& now = states[i];
-        if (body.motion != Motion::dynamic || body.role != Role::solid || !now.exists || held[i]) continue;
+        if (is_grain[i] == 0) continue;
         data.corners.push_back(static_cast<std::int64_t>(data.points.size()));
         data.ends.push_back(static_cast<std::int64_t>(data.corners.size()));
         data.points.push_back(now.position);
@@ -218,8 +218,7 @@ VtkPolyData VtkFolder::Impl::contacts(const World& world, const std::vector<Body
     VtkPolyData data{.kind = "Lines"};
     std::vector<std::int64_t> a, b;
     std::vector<float> normal_force, force;
-    const std::vector<std::uint8_t> held = granular::held_by_joints(world.scene());
-    const auto is_wall = [&](std::size_t body) { return world.scene().bodies[body].motion != Motion::dynamic || held[body]; };
+    const std::vector<std::uint8_t> is_grain = granular::grains_among(world, states);
     for (const ContactState& contact : world.contacts()) {
         float pressing = 0;
         vec3 middle(0);
@@ -231,7 +230,7 @@ VtkPolyData VtkFolder::Impl::contacts(const World& world, const std::vector<Body
         // A wall's end is where the contact is.
         for (const std::size_t body : {contact.a, contact.b}) {
             data.corners.push_back(static_cast<std::int64_t>(data.points.size()));
-            data.points.push_back(is_wall(body) ? middle / pressing : states[body].position);
+            data.points.push_back(is_grain[body] == 0 ? middle / pressing : states[body].position);
         }
         data.ends.push_back(static_cast<std::int64_t>(data.corners.size()));
         a.push_back(static_cast<std::int64_t>(contact.a));

@@ -135,16 +135,14 @@ GranularMeasured drums(const GranularLab& lab, std::uint64_t seed) {
 std::vector<GranularCase> drum_cases() {
     return {
         {.name = "drum",
-         .title = "grains in a rotating drum roll, cascade, fly and are carried "
-                  "round, by the Froude number Fr = w^2 R / g",
+         .title = "grains in a rotating drum roll, cascade, fly and are carried round, by the Froude number Fr = w^2 R / g",
          .source =
              "Mellmann, Powder Technol. 118, 251 (2001): rolling at Fr from 1e-4 to 1e-2, cascading to 0.1, cataracting to 1, "
-             "then "
-             "centrifuging; statics: a layer at r turns with the drum all the way round above w^2 r / g = sqrt(1 + 1 / mu^2)",
-         .setup = "spheres of 0.9 to 1.1 d, friction 0.5, in a drum of radius 10 "
-                  "d with ridges of d / 3, 5 d long, filled to "
-                  "35%; friction of the drum "
-                  "0.8, of its ends 0; 240 Hz, 6 substeps; mean over 3 s",
+             "then centrifuging; statics: a layer at r turns with the drum all the way round above w^2 r / g = sqrt(1 + 1 / "
+             "mu^2)",
+         .setup =
+             "spheres of 0.9 to 1.1 d, friction 0.5, in a drum of radius 10 d with ridges of d / 3, 5 d long, filled to 35%; "
+             "friction of the drum 0.8, of its ends 0; 240 Hz, 6 substeps; mean over 3 s",
          .grains = drum_grains,
          .figures = {{"Fr 0.002 (rolling): slope of the surface, degrees", "20 to 35", 20, 35},
                      {"Fr 0.03 (cascading) over Fr 0.002: grains that touch nothing", "above 1", 1, 100},

@@ -462,6 +462,26 @@ TEST_CASE("measures: the same bits for any number of threads and any order in me
     CHECK(power_above(0) == 1);
 }
 
+TEST_CASE("measures: bodies that a joint holds are walls, until it breaks") {
+    Scene scene = lattice(2, 0.5f, 0.25f);
+    scene.joints.push_back(joint_at(scene, Slider{}, the_world, 3, scene.bodies[3].position, {0, 1, 0}));
+    scene.joints.push_back(joint_at(scene, Fixed{}, 0, 1, scene.bodies[0].position, {0, 1, 0}));
+    MeasureRequest request = with_region(MeasureBox{{-1, -1, -1}, {2, 2, 2}});
+    request.gates.push_back({.name = "above", .centre = {0.25f, 1, 0.25f}, .u = {0, 0, 2}, .v = {2, 0, 0}});
+    World world(scene, {}, 1);
+    for (std::size_t i = 0; i < 8; ++i) world.set_velocity(i, {0, 4, 0}, vec3(0));
+    Measuring measuring(request, world);
+    for (int i = 0; i < 30; ++i) {
+        world.step();
+        measuring.after_step(world);
+    }
+    const Measures told = measuring.take(world);
+    CHECK(told.all.bodies == 5);
+    CHECK(told.gates[0].bodies_forward == 5);
+    world.remove_joint(1);
+    CHECK(measure(world).all.bodies == 7);
+}
+
 TEST_CASE("measures: of nothing, of walls alone and of sleepers") {
     Scene scene;
     CHECK(measure(World(scene, {}, 1)).all.bodies == 0);

@@ -27,7 +27,13 @@ glm::dmat4 along_y(const std::string& axis) {
 class Shapes {
 public:
     Shapes(const UsdStage& stage, const UsdUnits& units, UsdFound& found, Model& model, Notes& notes)
-        : stage_(stage), units_(units), found_(found), model_(model), notes_(notes), masses_(model.bodies.size()) {}
+        : stage_(stage),
+          units_(units),
+          found_(found),
+          model_(model),
+          notes_(notes),
+          masses_(model.bodies.size()),
+          shapes_(model.bodies.size(), 0) {}
     void add_all();
 
 private:
@@ -50,8 +56,9 @@ private:
     UsdFound& found_;
     Model& model_;
     Notes& notes_;
-    std::vector<SolidMass> masses_;  // of bodies
-    std::vector<vec3> vertices_;     // of the mesh at hand, in its own units
+    std::vector<SolidMass> masses_;    // of bodies
+    std::vector<std::size_t> shapes_;  // of each body, without what is only drawn
+    std::vector<vec3> vertices_;       // of the mesh at hand, in its own units
     std::vector<glm::uvec3> triangles_;
     std::size_t corners_ = 0;
 };
@@ -197,11 +204,9 @@ void Shapes::add_mesh(const UsdCollider& collider, Geometry like, SolidMass& mas
     like.placed = placed_of(frame_in_body(collider));
     const glm::dmat4 frame = matrix_of(inverse(like.placed)) * frame_in_body(collider);
     map_mesh({dmat3(frame), dvec3(frame[3])}, vertices_, triangles_);
-    const auto shapes = std::count_if(found_.colliders.begin(), found_.colliders.end(),
-                                      [&](const UsdCollider& one) { return one.body == collider.body && !(one.density < 0); });
-    const bool stays =
-        collider.body == world_body || (model_.bodies[collider.body].kinematic && shapes == 1 && how == "none");  // as a surface
-    if (!stays || how == "convexHull") return add_pieces(collider, like, how, mass);
+    const bool fixed = collider.body == world_body;
+    const bool is_surface = fixed || (how == "none" && model_.bodies[collider.body].kinematic && shapes_[collider.body] == 1);
+    if (!is_surface || how == "convexHull") return add_pieces(collider, like, how, mass);
     like.terrain = std::make_shared<Shape>(Mesh{vertices_, triangles_});
     keep(collider, std::move(like));
 }
@@ -246,6 +251,8 @@ void Shapes::add(UsdCollider& collider) {
 void Shapes::add_all() {
     std::vector<UsdCollider> colliders;
     std::vector<std::optional<vec3>> colors(model_.bodies.size());
+    for (const UsdCollider& one : found_.colliders)
+        if (!(one.density < 0)) ++shapes_[one.body];
     for (UsdCollider& one : found_.colliders) {
         if (one.density < 0) {  // drawn only
             if (!colors[one.body]) colors[one.body] = color_of(*one.prim);
