@@ -75,11 +75,13 @@ private:
     physics::BodyProperties form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
     physics::uint place_of(const Hull& hull);
     physics::uint place_of(const MeshForm& mesh);
+    physics::uint place_of(const std::vector<physics::uvec4>& seams);
     physics::uint place_of(const Fracture& fracture);
     physics::uint place_of(const std::optional<Tyre>& tyre);
     physics::uint place_of(const Material& material, float curvature);
 
     State& state_;
+    std::map<std::vector<physics::uint>, physics::uint> seams_;
     bool shares_meshes_ = false;
     std::map<const MeshForm*, physics::uint> meshes_;  // places, if copies share them
 };

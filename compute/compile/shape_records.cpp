@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "compute/compile/scene_compiler.h"
+#include "compute/compile/seams.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/meshes/hull.h"
 #include "compute/scene/meshes/hull_cells.h"
@@ -147,6 +148,16 @@ physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape) {
     return made;
 }
 
+// Index of a part's seams plus 1; 0: none. Equal parts of equal compounds share them.
+physics::uint SceneCompiler::place_of(const std::vector<physics::uvec4>& seams) {
+    if (seams.empty()) return 0;
+    std::vector<physics::uint> key;
+    for (const physics::uvec4& quad : seams) key.insert(key.end(), {quad.x, quad.y, quad.z, quad.w});
+    const auto [known, fresh] = seams_.try_emplace(key, static_cast<physics::uint>(state_.hulls.size() + 1));
+    if (fresh) state_.hulls.insert(state_.hulls.end(), seams.begin(), seams.end());
+    return known->second;
+}
+
 physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     const auto [known, fresh] =
         state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.pieces.size()));
@@ -286,20 +297,23 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     const physics::BodyProperties whole = state_.properties[owner];
     const Material own = material_of(body);
     const float curvature = curvature_of(body);
-    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn, const Material& material) {
+    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn, const Material& material, physics::uint seams) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
         part.fracture = part.joints = physics::NONE;
         set_surface(part, material, curvature);
         state_.properties.push_back(part);
-        state_.parts.push_back({place, 0, turn});
+        state_.parts.push_back({place, seams, turn});
     };
-    if (const auto* compound = std::get_if<Compound>(&body.shape))
-        for (const Part& part : compound->parts) {
+    if (const auto* compound = std::get_if<Compound>(&body.shape)) {
+        const std::vector<std::vector<physics::uvec4>> seams = seam_records(*compound);
+        for (std::size_t i = 0; i < seams.size(); ++i) {
+            const Part& part = compound->parts[i];
             physics::BodyProperties form = form_of(part.shape, body.tyre);
             form.flags |= flags_of(body.role != Role::solid ? body.role : part.role);
-            append(form, part.position, part.orientation, part.material.value_or(own));
+            append(form, part.position, part.orientation, part.material.value_or(own), place_of(seams[i]));
         }
+    }
     if (const MeshForm* form = mesh_form_of(body.shape)) {
         physics::uint next = place_of(*form);
         for (const MeshForm::Triangle& triangle : form->triangles) {
@@ -308,7 +322,7 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
             part.shape_data = next;
             part.size = triangle.half_extents;
             next += physics::TRIANGLE_RECORDS;
-            append(part, triangle.middle, vec4(0, 0, 0, 1), own);
+            append(part, triangle.middle, vec4(0, 0, 0, 1), own, 0);
         }
     }
 }

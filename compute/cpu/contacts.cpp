@@ -43,7 +43,7 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
 
 void make_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        if (state.point_counts[i] == 0) return;
+        if (!physics::has_points(state.point_counts[i])) return;
         const std::uint32_t contact = state.contact_starts[i];
         const physics::Pair& pair = state.pairs[i];
         state.contacts[contact] =

@@ -69,7 +69,7 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
                                       (physics::drives(properties, state.velocities[i], p) ? drives : 0));
     });
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        if (state.point_counts[i] == 0) return;
+        if (!physics::has_points(state.point_counts[i])) return;
         const auto [a, b, pair_type, previous] = state.pairs[i];
         const std::uint32_t bodies[2] = {state.body_of(a), state.body_of(b)};
         const std::uint8_t paces[2] = {state.scratch.paces[bodies[0]], state.scratch.paces[bodies[1]]};

@@ -37,13 +37,13 @@ void scan_pair_types_offsets(State& state, const Threads&, std::uint32_t) {
 
 void scan_contacts_spine(State& state, const Threads&, std::uint32_t) {
     const auto end = state.point_counts.begin() + state.counted().pairs;
-    const auto total = std::count_if(state.point_counts.begin(), end, [](physics::uint points) { return points > 0; });
+    const auto total = std::count_if(state.point_counts.begin(), end, physics::has_points);
     state.counted() = physics::with_contacts(state.counted(), static_cast<physics::uint>(total), state.fixed());
 }
 void scan_contacts_offsets(State& state, const Threads&, std::uint32_t) {
     const auto end = state.point_counts.begin() + state.counted().pairs;
     std::transform(state.point_counts.begin(), end, state.contact_starts.begin(),
-                   [](physics::uint points) { return points > 0; });
+                   [](physics::uint points) { return physics::has_points(points) ? 1u : 0u; });
     scan_in_place(state.contact_starts, state.counted().pairs);
 }
 

@@ -37,7 +37,7 @@ bool wakes(State& state, const physics::Pair& pair, std::uint32_t sleeper, std::
 bool owner_touches(const State& state, std::uint32_t owner, std::uint32_t other) {
     for (std::size_t i = state.pair_starts[owner]; i < state.pair_starts[owner + 1]; ++i) {
         const physics::Pair& pair = state.pairs[i];
-        if ((pair.a == other || pair.b == other) && state.point_counts[i] > 0) return true;
+        if ((pair.a == other || pair.b == other) && physics::has_points(state.point_counts[i])) return true;
     }
     return false;
 }

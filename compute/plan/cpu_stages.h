@@ -37,6 +37,9 @@ SCREE_STAGE(collide);  // pass: pair type
 SCREE_STAGE(collide_persistent);
 SCREE_STAGE(collide_inactive);
 
+// seams.cpp
+SCREE_STAGE(drop_hidden);
+
 // waking.cpp
 SCREE_STAGE(wake_touched);
 SCREE_STAGE(wake_unsupported);

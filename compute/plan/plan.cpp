@@ -103,6 +103,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add("fill_pair_types");
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
         if (has_pair_type(features, pair_type)) s.add(name_of_pair_type(pair_type), pair_type);
+    if (features.blocks) s.add("drop_hidden");
     s.add(convex ? "predict_impacts_convex" : "predict_impacts");
     s.add("cull_speculative");
     // contacts

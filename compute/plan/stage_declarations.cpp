@@ -123,6 +123,9 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
         found});
+    all.push_back({"drop_hidden", DispatchDomain::pairs, drop_hidden,
+        {{counts}, {point_counts, A::pairs}, {pairs, A::pairs}, {properties}, {parts}, {poses, A::bodies}, {hulls}, {manifold_places, A::contacts}, {manifolds, A::contacts}},
+        {{point_counts, A::pairs}, unordered({manifolds, A::contacts})}});
     // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
         {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifold_places}, {manifolds}, {impacts_before}},

@@ -6,6 +6,7 @@
 
 #include "compute/world/world_impl.h"
 #include "shaders/physics/body/compound.h"
+#include "shaders/physics/collide/seam.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/collide/triangle.h"
 
@@ -27,25 +28,38 @@ std::uint32_t records_of(const State& state, const physics::BodyProperties& row)
     return 1 + vertices + 2 * faces + 2 * 6 * across * across + (corners + 15) / 16;
 }
 
+// Of a part, plus 1; 0: none.
+physics::uint seams_of(const State& state, std::uint32_t row) {
+    return row >= state.fixed().first_part && physics::is_part(state.properties[row]) ? state.part_in(row).seams : 0;
+}
+
+// Calls `note` with the place and length of the records of a row that lie behind `first`.
+template <class Note>
+void for_records_of(const State& state, std::uint32_t row, std::size_t first, const Note& note) {
+    const physics::BodyProperties& properties = state.properties[row];
+    if (has_records(properties) && properties.shape_data >= first) note(properties.shape_data, records_of(state, properties));
+    const physics::uint seams = seams_of(state, row);
+    if (seams > first) note(seams - 1, physics::quads_of_seams(state.hull_table(), seams - 1));
+}
+
 }  // namespace
 
 std::map<std::uint32_t, std::uint32_t> World::Impl::hulls_of_added(const std::vector<std::uint32_t>& bodies) const {
     std::set<std::uint32_t> rows;
     for (const std::uint32_t body : bodies) rows.insert(state.row_of(body));
     std::map<std::uint32_t, std::uint32_t> found;
-    const auto note = [&](const physics::BodyProperties& row) {
-        if (has_records(row) && row.shape_data >= shapes_at_start.hulls) found[row.shape_data] = records_of(state, row);
-    };
-    for (const std::uint32_t row : rows) note(state.properties[row]);
+    const auto note = [&](std::uint32_t place, std::uint32_t count) { found[place] = count; };
+    for (const std::uint32_t row : rows) for_records_of(state, row, shapes_at_start.hulls, note);
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
-        if (physics::is_part(state.properties[row]) && rows.contains(state.properties[row].owner)) note(state.properties[row]);
+        if (physics::is_part(state.properties[row]) && rows.contains(state.properties[row].owner))
+            for_records_of(state, row, shapes_at_start.hulls, note);
     return found;
 }
 
 void World::Impl::free_hulls(std::map<std::uint32_t, std::uint32_t> records) {
     if (records.empty()) return;
-    for (const physics::BodyProperties& row : state.properties)
-        if (has_records(row)) records.erase(row.shape_data);  // shared with a body that stays
+    const auto keep = [&](std::uint32_t place, std::uint32_t) { records.erase(place); };  // shared with a body that stays
+    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row) for_records_of(state, row, shapes_at_start.hulls, keep);
     std::erase_if(state.shape_places.hulls, [&](const auto& one) { return records.contains(one.second); });
     TableRanges emptied;
     for (const auto& [place, count] : records) {
@@ -72,9 +86,12 @@ void World::Impl::pack_hulls(std::size_t before, std::uint32_t body, TableRanges
     const std::uint32_t row = state.row_of(body);
     if (has_records(state.properties[row])) moved(state.properties[row].shape_data);
     if (state.properties[row].shape == physics::SHAPE_NONE)
-        for (std::uint32_t part = state.fixed().first_part; part < state.fixed().bodies; ++part)
-            if (has_records(state.properties[part]) && state.properties[part].owner == row)
-                moved(state.properties[part].shape_data);
+        for (std::uint32_t part = state.fixed().first_part; part < state.fixed().bodies; ++part) {
+            if (!physics::is_part(state.properties[part]) || state.properties[part].owner != row) continue;
+            if (has_records(state.properties[part])) moved(state.properties[part].shape_data);
+            physics::uint& seams = state.parts[part - state.fixed().first_part].seams;
+            if (seams > before) seams = static_cast<physics::uint>(seams - before + place);
+        }
     for (auto& [form, at] : state.shape_places.hulls) moved(at);
     std::erase_if(changed, [&](const TableRange& range) { return range.table == Table::hulls && range.first >= before; });
     changed.push_back({Table::hulls, place, count});
@@ -83,8 +100,8 @@ void World::Impl::pack_hulls(std::size_t before, std::uint32_t body, TableRanges
 // After a checkpoint: what no body uses behind the hulls of the start.
 void World::Impl::find_spare_hulls() {
     std::map<std::uint32_t, std::uint32_t> used;
-    for (const physics::BodyProperties& row : state.properties)
-        if (has_records(row) && row.shape_data >= shapes_at_start.hulls) used[row.shape_data] = records_of(state, row);
+    const auto note = [&](std::uint32_t place, std::uint32_t count) { used[place] = count; };
+    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row) for_records_of(state, row, shapes_at_start.hulls, note);
     spare_hulls.clear();
     auto place = static_cast<std::uint32_t>(shapes_at_start.hulls);
     for (const auto& [first, count] : used) {

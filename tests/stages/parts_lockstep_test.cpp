@@ -8,6 +8,7 @@
 #include "host/vulkan/device.h"
 #include "tests/stages/lockstep_result.h"
 #include "tests/stages/watched_device.h"
+#include "tests/world/boards.h"
 #include "tests/world/coarse.h"
 #include "tests/world/feet.h"
 
@@ -96,4 +97,31 @@ TEST_CASE("bodies in several contacts with another give the same bits on both pr
     const Watched watched;
     const std::shared_ptr<host::Device>& device = watched.device;
     tests::require_equal(compare_in_lockstep(tests::what_has_feet(7), tests::coarse(), device, 1, 30));
+}
+
+TEST_CASE("what slides over seams gives the same bits on both processors in every stage", "[process:kinds]") {
+    const Watched watched;
+    const std::shared_ptr<host::Device>& device = watched.device;
+    using tests::board, tests::Seams;
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
+    float z = 0;
+    for (const Seams seams : {Seams::flush, Seams::overlapping, Seams::askew}) {
+        Body table{.shape = board(seams, 0.05f, 0.4f)};
+        table.position = {0, 0.05f, z};
+        if (seams != Seams::flush) table.motion = Motion::fixed;
+        scene.bodies.push_back(table);
+        const Shape sliders[] = {Box{vec3(0.05f)},      Box{{0.05f, 0.002f, 0.05f}}, Sphere{0.05f},
+                                 Capsule{0.03f, 0.05f}, Cylinder{0.05f, 0.03f},      board(seams, 0.04f, 0.1f)};
+        for (int k = 0; k < 6; ++k) {
+            Body& body = scene.bodies.emplace_back();
+            body.shape = sliders[k];
+            body.position = {-0.6f + 0.2f * static_cast<float>(k), 0.15f + (k == 5 ? 0.15f : 0.0f),
+                             z + 0.1f * static_cast<float>(k % 3)};
+            body.velocity = {static_cast<float>(k + 1), -1, 0};
+            body.friction = 0.1f;
+        }
+        z += 1;
+    }
+    tests::require_equal(compare_in_lockstep(scene, tests::coarse(), device, 1, 40));
 }

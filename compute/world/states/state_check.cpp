@@ -123,6 +123,21 @@ private:
         return true;
     }
 
+    // The layout of seam.h.
+    bool is_seams(std::size_t place) const {
+        const std::size_t size = saved_.at_start.hulls + saved_.hulls.size();
+        if (place >= size) return false;
+        const std::size_t solids = quad(place).x;
+        ++place;
+        for (std::size_t k = 0; k < solids; ++k) {
+            if (place >= size) return false;
+            const physics::uvec4 head = quad(place);
+            if (head.x > 2 * physics::MOST_CORNERS || head.y > physics::MOST_CORNERS) return false;
+            place += std::size_t{1} + head.x + head.y;
+        }
+        return solids > 0 && place <= size;
+    }
+
     // Bound on the width of a row's bounds in a step, m.
     float reach_of(std::size_t row, const physics::BodyProperties& body) const {
         const bool part = row >= p_.first_part && in(body.owner, p_.first_part);
@@ -169,6 +184,9 @@ private:
                     "row", row, "has sizes, masses or a material that are not finite");
             require(body.restitution >= 0 && body.restitution <= 1, "row", row, "has a restitution that is not between 0 and 1");
             check_shape(row, body);
+            const physics::uint seams = part && physics::is_part(body) ? saved_.parts[row - p_.first_part].seams : 0;
+            require(seams == 0 || !known_seams_.insert(seams).second || is_seams(seams - 1), "row", row,
+                    "has seams that do not fit the table of hulls");
             const bool in_grid = !physics::is_large(body) && body.shape != physics::SHAPE_NONE && !physics::is_apart(body);
             require(!in_grid || (body.shape != physics::SHAPE_PLANE && reach_of(row, body) * p_.inverse_cell < most_cells), "row",
                     row, "spans too many cells of the grid");
@@ -335,6 +353,7 @@ private:
     const State& own_;
     const physics::Parameters& p_;
     std::set<std::pair<physics::uint, bool>> known_hulls_;
+    std::set<physics::uint> known_seams_;
 };
 
 }  // namespace

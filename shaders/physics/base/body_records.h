@@ -49,8 +49,8 @@ struct BodyProperties {
 };
 // Pose of a part, or of a fragment, in its body.
 struct PoseInBody {
-    vec3 position;  // from the body's centre of mass, body axes, m
-    float pad0;
+    vec3 position;     // from the body's centre of mass, body axes, m
+    uint seams;        // of a part: index of its seams in the table of shape data plus 1; 0: none (seam.h)
     vec4 orientation;  // unit quaternion, part to body
 };
 // Fracture of a body (fracture.h).

@@ -8,6 +8,12 @@
 LAWS_BEGIN
 
 // ---- manifolds
+// Flag in the table of point counts: the pair has no points because its bodies hide them (seam.h). It counts as a contact where
+// times of impact are found.
+CONSTANT uint POINTS_HIDDEN = 0x40000000u;
+LAW bool has_points(uint counts) {
+    return (counts & ~POINTS_HIDDEN) != 0u;
+}
 // Contact manifold of up to four points, speculative ones included.
 struct Manifold {
     vec3 normal;     // unit, world, from A to B

@@ -50,7 +50,7 @@ LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, 
     course.sweep = turning_of(orientation, course.turn) * lever_of(properties);
     course.most = course.sweep * off_axis(properties.shape, course.axis, orientation);
     course.part.position = vec3(0.0f);
-    course.part.pad0 = 0.0f;
+    course.part.seams = 0u;
     course.part.orientation = vec4(0.0f);
     course.of_part = 0u;
     return course;

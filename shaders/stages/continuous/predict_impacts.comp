@@ -13,7 +13,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || lacks_room(COUNTED, PARAMETERS) || WORD(point_counts, i) == 0u) return;
+    if (i >= COUNTED.pairs || lacks_room(COUNTED, PARAMETERS) || !has_points(WORD(point_counts, i))) return;
     uint a = READ(pairs, i).a, b = READ(pairs, i).b;
     uint of_a = body_of(a), of_b = body_of(b);
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);

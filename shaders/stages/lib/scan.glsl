@@ -37,7 +37,7 @@ uint scan_read(uint i) {
     else if (SCANNED == SCAN_KINDS)
         value = READ_WORD(pair_type_counts, i);
     else if (SCANNED == SCAN_CONTACTS)
-        value = READ_WORD(point_counts, i) > 0u ? 1u : 0u;
+        value = has_points(READ_WORD(point_counts, i)) ? 1u : 0u;
     else
         value = READ_WORD(slot_counts, i);
     return value;

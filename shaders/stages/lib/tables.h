@@ -56,7 +56,7 @@
     X(26, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                          \
     X(26, strains, WordsTable, float, bodies)      /* last step's impulse or momentum of breakable bodies: fracture.h */      \
     X(26, impact_debts, WordsTable, float, bodies) /* J, of bodies in an impact in this substep: restitution.h */             \
-    X(26, point_counts, WordsTable, uint, pairs)   /* points of each pair's manifold; with SPECULATIVE */                     \
+    X(26, point_counts, WordsTable, uint, pairs)   /* points of each pair's manifold; with SPECULATIVE or POINTS_HIDDEN */    \
     X(26, pairs_by_type, WordsTable, uint, pairs)                                                                             \
     X(26, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                         \
     X(26, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
@@ -77,7 +77,7 @@
     X(26, bond_changes, WordsTable, float, bond_changes) /* of each side of a bond: BOND_WORDS */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
-    X(27, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
+    X(27, hulls, QuadsTable, uvec4, hulls)              /* hulls, triangles of meshes, seams: shape_data.h */ \
     X(27, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
     X(27, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
     X(27, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \

@@ -11,7 +11,7 @@ void main() {
     uint i = thread();
     if (i >= COUNTED.pairs) return;
     uint points = READ_WORD(point_counts, i);
-    if (points == 0u) return;
+    if (!has_points(points)) return;
     uint place = READ_WORD(contact_starts, i);
     Pair pair = READ(pairs, i);
     if (is_carried_forward(pair.pair_type))

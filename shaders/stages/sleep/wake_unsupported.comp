@@ -16,7 +16,7 @@ bool owner_touches(uint owner, uint other) {
     while (low < high) {
         uint middle = (low + high) >> 1;
         uint partner = READ(pairs, middle).a == owner ? READ(pairs, middle).b : READ(pairs, middle).a;
-        if (partner == other) return READ_WORD(point_counts, middle) != 0u;
+        if (partner == other) return has_points(READ_WORD(point_counts, middle));
         if (id_of(partner) < id)
             low = middle + 1u;
         else
