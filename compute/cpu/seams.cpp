@@ -8,6 +8,7 @@
 namespace scree::reference {
 
 void drop_hidden(State& state, const Threads& threads, std::uint32_t) {
+    if (physics::lacks_room(state.counted(), state.fixed())) return;  // devices did not keep all manifolds: the step is repeated
     const auto seams_of = [&](std::uint32_t row) { return row < state.fixed().first_part ? 0 : state.part_in(row).seams; };
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         const physics::Pair& pair = state.pairs[i];
