@@ -125,3 +125,27 @@ TEST_CASE("what slides over seams gives the same bits on both processors in ever
     }
     tests::require_equal(compare_in_lockstep(scene, tests::coarse(), device, 1, 40));
 }
+
+TEST_CASE("parts with the most neighbours that there can be give the same bits on both processors", "[process:kinds]") {
+    // Lavapipe ends a shader's loops after 65,535 rounds in all.
+    const Watched watched;
+    Compound crowd;
+    for (int part = 0; part < 33; ++part) {
+        Hull ball;
+        for (int k = 0; k < 64; ++k) {  // on a spiral
+            const float y = 1 - (2 * static_cast<float>(k) + 1) / 64, across = std::sqrt(1 - y * y);
+            const float angle = 2.4f * static_cast<float>(k) + 0.3f * static_cast<float>(part);
+            ball.points.push_back((0.1f + 0.001f * static_cast<float>(part)) *
+                                  vec3(across * std::cos(angle), y, across * std::sin(angle)));
+        }
+        crowd.parts.push_back(
+            {.shape = ball,
+             .position = {0.02f * static_cast<float>(part % 6) - 0.05f, 0, 0.02f * static_cast<float>(part / 6) - 0.05f}});
+    }
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
+    for (int k = 0; k < 4; ++k)
+        scene.bodies.push_back(
+            {.shape = crowd, .position = {0.05f * static_cast<float>(k), 0.14f + 0.25f * static_cast<float>(k), 0}});
+    tests::require_equal(compare_in_lockstep(scene, tests::coarse(), watched.device, 1, 12));
+}

@@ -51,35 +51,66 @@ LAW uint quads_of_seams(Hulls hulls, uint seams) {
     for (uint k = 0u; k < solids; ++k) place = place_behind(solid_at(hulls, place));
     return place - seams;
 }
-LAW bool holds_point(Hulls hulls, Solid solid, vec3 point, float room) {
-    bool holds = true;
-    for (uint k = 0u; k < solid.planes && holds; ++k) {
-        uvec4 plane = hull_record(hulls, solid.first + k);
-        holds = dot3(point_in(plane), point) - uintBitsToFloat(plane.w) <= room;
-    }
-    return holds;
-}
-// Whether a solid that holds the point rises over the plane through it.
-LAW bool rises_over(Hulls hulls, Solid solid, vec3 point, vec3 normal, float room) {
-    bool rises = false;
-    for (uint k = 0u; k < solid.vertices && !rises; ++k) {
-        vec3 way = point_in(hull_record(hulls, solid.first + solid.planes + k)) - point;
-        float height = dot3(way, normal) - room;
-        rises = height > 0.0f && height * height > RISE_SQUARED * dot3(way, way);
-    }
-    return rises;
-}
 
-// Whether a neighbour that holds the point rises over the plane of a contact there.
-LAW bool is_covered(Hulls hulls, uint first, uint solids, vec3 point, vec3 normal, float room) {
-    bool covered = false;
-    uint place = first;
-    for (uint k = 1u; k < solids && !covered; ++k) {
-        Solid solid = solid_at(hulls, place);
-        covered = holds_point(hulls, solid, point, room) && rises_over(hulls, solid, point, normal, room);
-        place = place_behind(solid);
+// A contact point, and eight places round it in the plane of the contact. Sets of them are bits: 1 the point; 2 to 16 the places
+// ahead, diagonally, aside and diagonally back; 32 to 256 those opposite. All at once, so that a thread's loops stay below
+// lavapipe's 65,535 rounds: for each of four points and two bodies 32 neighbours, of at most 128 planes and 64 vertices.
+struct Places {
+    vec3 point;
+    vec3 normal;  // of the contact, unit, outward
+    vec3 ahead;   // `away` along a tangent, m
+    vec3 aside;   // and across
+    float away;   // m
+};
+CONSTANT uint ALL_PLACES = 511u;
+LAW Places places_round(vec3 point, vec3 normal, float away) {
+    Places at;
+    at.point = point;
+    at.normal = normal;
+    at.ahead = tangent(normal) * away;
+    at.aside = cross3(normal, at.ahead);
+    at.away = away;
+    return at;
+}
+// How far the four places of bits 2 to 16 lie from the point along a direction, m.
+LAW vec4 aways_along(Places at, vec3 direction) {
+    float x = dot3(direction, at.ahead), y = dot3(direction, at.aside);
+    return vec4(x, 0.70710678f * (x + y), y, 0.70710678f * (y - x));
+}
+// The places where a value is at most `most`: `round_it + change` at those of bits 2 to 16, `round_it - change` opposite.
+LAW uint places_within(float at_point, float round_it, vec4 change, float most) {
+    uint within = at_point <= most ? 1u : 0u;
+    within |= round_it + change.x <= most ? 2u : 0u;
+    within |= round_it + change.y <= most ? 4u : 0u;
+    within |= round_it + change.z <= most ? 8u : 0u;
+    within |= round_it + change.w <= most ? 16u : 0u;
+    within |= round_it - change.x <= most ? 32u : 0u;
+    within |= round_it - change.y <= most ? 64u : 0u;
+    within |= round_it - change.z <= most ? 128u : 0u;
+    within |= round_it - change.w <= most ? 256u : 0u;
+    return within;
+}
+// Those in a solid, or within `room` (m) of it.
+LAW uint places_in(Hulls hulls, Solid solid, Places at, uint among, float room) {
+    uint held = among;
+    for (uint k = 0u; k < solid.planes && held != 0u; ++k) {
+        uvec4 plane = hull_record(hulls, solid.first + k);
+        float height = dot3(point_in(plane), at.point) - uintBitsToFloat(plane.w);
+        held &= places_within(height, height, aways_along(at, point_in(plane)), room);
     }
-    return covered;
+    return held;
+}
+// Those over whose plane a solid rises.
+LAW uint places_under(Hulls hulls, Solid solid, Places at, uint among, float room) {
+    uint under = 0u;
+    for (uint k = 0u; k < solid.vertices && under != among; ++k) {
+        vec3 way = point_in(hull_record(hulls, solid.first + solid.planes + k)) - at.point;
+        float height = dot3(way, at.normal) - room, squared = RISE_SQUARED * dot3(way, way);
+        vec4 nearer = aways_along(at, way * RISE_SQUARED);  // half of it
+        uint risen = places_within(squared, squared + RISE_SQUARED * (at.away * at.away), -(nearer + nearer), height * height);
+        under |= height > 0.0f ? among & risen : 0u;
+    }
+    return under;
 }
 // Whether it is the normal of a face.
 LAW bool has_face(Hulls hulls, Solid solid, vec3 normal) {
@@ -88,25 +119,25 @@ LAW bool has_face(Hulls hulls, Solid solid, vec3 normal) {
         has = dot3(point_in(hull_record(hulls, solid.first + k)), normal) > SAME_FACE;
     return has;
 }
-// Whether a contact point on the surface of a part, with the outward unit normal of the contact, is hidden: it is covered, and so
-// are the places of the face that lie beside it, if it is on a face. In the part's frame.
+// Whether a contact point on the surface of a part, with the outward unit normal of the contact, is hidden: a neighbour covers
+// it, that holds it and rises over the plane of the contact, and so are the places of the face that lie beside it, if it is on a
+// face. In the part's frame.
 LAW bool is_hidden(Hulls hulls, uint seams, vec3 point, vec3 normal) {
     uvec4 head = hull_record(hulls, seams);
     float room = uintBitsToFloat(head.y);
     Solid own = solid_at(hulls, seams + 1u);
-    bool hidden = is_covered(hulls, place_behind(own), head.x, point, normal, room);
-    uint places = hidden && has_face(hulls, own, normal) ? 8u : 0u;
-    vec3 ahead = tangent(normal), aside = cross3(normal, ahead);
-    for (uint k = 0u; k < places && hidden; ++k) {
-        uint way = k & 3u;
-        float x = way == 0u ? 1.0f : (way == 2u ? 0.0f : (way == 1u ? 0.70710678f : -0.70710678f));
-        float y = way == 0u ? 0.0f : (way == 2u ? 1.0f : 0.70710678f);
-        float away = k < 4u ? BESIDE * room : -(BESIDE * room);
-        vec3 place = point + (ahead * (x * away) + aside * (y * away));
-        hidden =
-            !holds_point(hulls, own, place, 0.25f * room) || is_covered(hulls, place_behind(own), head.x, place, normal, room);
+    Places at = places_round(point, normal, BESIDE * room);
+    uint covered = 0u, place = place_behind(own);
+    for (uint k = 1u; k < head.x && covered != ALL_PLACES; ++k) {
+        Solid solid = solid_at(hulls, place);
+        uint held = places_in(hulls, solid, at, ALL_PLACES & ~covered, room);
+        covered |= places_under(hulls, solid, at, held, room);
+        place = place_behind(solid);
     }
-    return hidden;
+    bool covers = (covered & 1u) != 0u;
+    uint shown = covers ? ALL_PLACES & ~covered : 0u;
+    if (shown != 0u) shown = has_face(hulls, own, normal) ? places_in(hulls, own, at, shown, 0.25f * room) : 0u;
+    return covers && shown == 0u;
 }
 
 // A manifold of A and B without the points that are hidden on a part of one of them, A if `outward` is 1, B if it is -1. The
