@@ -12,8 +12,7 @@ void add_serve(CLI::App& program, int&) {
     command->callback([] {
         throw UsageError(
             "this scree was built without its web server: on Linux install Boost (apt-get install libboost-dev), configure and "
-            "build "
-            "again; or record a page: scree run DEMO --html FILE");
+            "build again; or record a page: scree run DEMO --html FILE");
     });
 }
 
