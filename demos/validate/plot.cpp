@@ -96,7 +96,8 @@ std::string marks(const PlotSeries& series, const Frame& frame, const char* colo
 
 std::string legend(const PlotOf& plot) {
     std::string svg;
-    double y = Frame::top + 16;
+    const auto entries = static_cast<double>(plot.lines.size() + plot.points.size());
+    double y = plot.legend_low ? Frame::height - Frame::bottom - 15 * entries : Frame::top + 16;
     const double left = plot.legend_right ? Frame::width - 130 : Frame::left + 10;
     const auto entry = [&](const std::string& name, const std::string& mark) {
         if (name.empty()) return;

@@ -18,8 +18,8 @@ struct PlotOf {
     std::string x, y;               // what the axes are
     std::vector<PlotSeries> lines;  // theory, or what was published
     std::vector<PlotSeries> points;
-    bool whole_range = false;  // all of the band from 0 to the greatest value, not that of the values alone
-    bool legend_right = false;
+    bool whole_range = false;                       // all of the band from 0 to the greatest value, not that of the values alone
+    bool legend_right = false, legend_low = false;  // where the legend hides no point; else above on the left
 };
 
 // `standalone`: a file of its own, with its style in it. Points that are not finite are left out.

@@ -71,6 +71,14 @@ TEST_CASE("the walls of a small silo bear most of its grains", "[demos]") {
         if (point.x > 10) CHECK(point.y < 0.5 * point.x);
 }
 
+TEST_CASE("a small triaxial cell holds its stress, and stones bear more than balls", "[demos]") {
+    const std::vector<GranularCase> all = all_granular_cases();
+    const GranularResult result = validate(case_called(all, "triaxial"), lab_of(64, 1));
+    INFO(granular_table({result}, false));
+    CHECK(result.mean(0) < 2);
+    CHECK(result.mean(2) > result.mean(1) + 4);
+}
+
 TEST_CASE("a figure's mean over seeds must lie in its range, and must be a number", "[demos]") {
     const auto result_of = [](const GranularCase& made, std::uint64_t seeds) { return validate(made, lab_of(0, seeds)); };
     const GranularCase near = measured_as({1.8, 2.0, 2.2}), far = measured_as({2.0, 2.3}), none = measured_as({2.0, NAN});

@@ -84,8 +84,7 @@ DrumState drum_at(const GranularLab& lab, std::uint64_t seed, double froude) {
     lab.run(world, 1.5);
     world.set_velocity(0, vec3(0), {0, 0, static_cast<float>(spin)});
 
-    // Two turns; where grains are carried round, until they all have come up to
-    // speed.
+    // Two turns; where grains are carried round, until they all have come up to speed.
     lab.run(world, froude > 0.5 ? 10 : std::max(3.0, std::min(8.0, 4 * std::numbers::pi / spin)));
     DrumState state;
     std::vector<double> slopes;

@@ -97,7 +97,7 @@ GranularResult validate(const GranularCase& granular, const GranularLab& lab, co
 
 std::vector<GranularCase> all_granular_cases() {
     std::vector<GranularCase> all;
-    for (auto* group : {column_cases, discharge_cases, heap_cases, drum_cases, cut_cases}) {
+    for (auto* group : {column_cases, discharge_cases, heap_cases, drum_cases, cut_cases, triaxial_cases}) {
         std::vector<GranularCase> some = group();
         std::move(some.begin(), some.end(), std::back_inserter(all));
     }

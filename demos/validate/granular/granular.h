@@ -72,6 +72,7 @@ std::vector<GranularCase> discharge_cases();
 std::vector<GranularCase> heap_cases();
 std::vector<GranularCase> drum_cases();
 std::vector<GranularCase> cut_cases();
+std::vector<GranularCase> triaxial_cases();
 std::vector<GranularCase> all_granular_cases();
 
 struct GranularResult {
