@@ -23,7 +23,10 @@ CONSTANT uint ROW_APART = 2u;   // collides with nothing: only drawn, or a senso
 CONSTANT uint ROW_SENSOR = 4u;  // one of the latter that is a sensor
 // On devices of ranks that share a world (compute/distributed), of bodies that another rank moves and of their parts.
 CONSTANT uint ROW_FOREIGN = 8u;
-CONSTANT uint ROW_ELSEWHERE = 16u;     // one of the latter that is not near either, so no ghost: it is in no cell
+CONSTANT uint ROW_ELSEWHERE = 16u;  // one of the latter that is not near either, so no ghost: it is in no cell
+// Of a hull: its farthest vertex is nearer than the corner of its box by this many 16ths of the latter's distance.
+CONSTANT uint ROW_REACH_SHIFT = 5u;
+CONSTANT uint ROW_REACH_MOST = 7u;
 CONSTANT uint ROW_SURFACE_SHIFT = 8u;  // above: index into the table of surfaces plus 1; 0: none
 
 CONSTANT uint NONE = 0xFFFFFFFFu;

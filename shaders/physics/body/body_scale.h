@@ -12,6 +12,14 @@ LAW float min_half_width(BodyProperties properties) {
     return min_half_width(properties.shape, properties.size);
 }
 
+// Radius of a ball about the centre that holds the body, m. That of a hull is at most a sixteenth of its box's diagonal more than
+// its farthest vertex.
+LAW float bounding_radius(BodyProperties properties) {
+    uint nearer = (properties.flags >> ROW_REACH_SHIFT) & ROW_REACH_MOST;
+    return bounding_radius(properties.shape, properties.size) *
+           uintBitsToFloat(0x3F800000u - (nearer << 20u));  // 1 - nearer / 16
+}
+
 // Round bodies: in the contact of two, point and normal follow both; other points stay with one body (stays_with_b).
 LAW bool is_round(BodyProperties properties) {
     return has_round_core(properties.shape);

@@ -17,11 +17,8 @@ LAWS_BEGIN
 // Time of impact of bodies that are not clamped; greater than 1, the value of fast bodies whose sweep is free.
 CONSTANT float NO_HIT = 2.0f;
 
-LAW float bounding_radius(BodyProperties properties) {
-    return bounding_radius(properties.shape, properties.size);
-}
 LAW float lever_of(BodyProperties properties) {
-    return turning_reach(properties.shape, properties.size);
+    return smaller(turning_reach(properties.shape, properties.size), bounding_radius(properties));
 }
 
 // Motion in a step above which a body is fast, m. With more, a thin plate could be entered beyond its middle.
@@ -59,7 +56,9 @@ LAW bool will_sweep(BodyProperties properties, Velocity velocity, Parameters par
 }
 
 LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
-    return world_half_extents(properties.shape, properties.size, orientation);
+    vec3 half_size = world_half_extents(properties.shape, properties.size, orientation);
+    bool hull = properties.shape == SHAPE_HULL;
+    return choose(hull, smaller3(half_size, vec3(bounding_radius(properties))), half_size);
 }
 
 // Difference of two quaternions on the shorter arc, whatever the sign of the second.

@@ -176,6 +176,8 @@ LAW ManifoldBuffer manifold_of_face(ConvexShape own, ConvexShape other, vec3 d, 
 LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin, Hulls hulls) {
     ConvexShape a = convex_shape_of(ta, pose_a.orientation, hulls), b = convex_shape_of(tb, pose_b.orientation, hulls);
     vec3 d = pose_b.position - pose_a.position;
+    float reach = (bounding_radius(ta) + bounding_radius(tb)) + margin;
+    if (dot3(d, d) > reach * reach) return empty_manifold();
     Separation s = separation_of(a, b, d, margin, hulls);
     if (s.distance >= margin) return empty_manifold();
     float slop = FACE_PREFERENCE * smaller(a.scale, b.scale);

@@ -28,7 +28,7 @@ LAW float closed_by_turning(BodyProperties body, float reach, Velocity v, Parame
 }
 // `apart`: from A to B.
 LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, vec3 apart, Parameters parameters) {
-    float reach_a = bounding_radius(a.shape, a.size), reach_b = bounding_radius(b.shape, b.size);
+    float reach_a = bounding_radius(a), reach_b = bounding_radius(b);
     float turning = closed_by_turning(a, reach_a, va, parameters) + closed_by_turning(b, reach_b, vb, parameters);
     float weight = larger(abs(a.gravity_scale), abs(b.gravity_scale)) * (parameters.dt * parameters.dt);
     Margin margin;
