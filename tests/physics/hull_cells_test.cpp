@@ -1,4 +1,4 @@
-// Direction cells of hulls: lookups find the same supports and faces as exhaustive search.
+// Direction cells of hulls: lookups find the same supports and faces as exhaustive search. The ball about a hull.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -186,6 +186,22 @@ TEST_CASE("the best of two hulls' faces is the best of all of them, however deep
                 const physics::Separation s = physics::separation_by_faces(solids[0], solids[1], d, 1e30f, table);
                 if (std::abs(s.distance - best) > 5e-6) FAIL("pose " << k << ": " << s.distance << " of " << best);
             }
+        }
+    }
+}
+
+TEST_CASE("the ball about a hull holds its vertices, and is little larger than they ask for") {
+    Chance chance(5);
+    for (const int size : sizes) {
+        for (const vec3 form : forms) {
+            const LoadedScene hull = hull_of(size, form, chance);
+            CAPTURE(size, form.x, form.y, form.z);
+            float farthest = 0;
+            for (physics::uint k = 0; k < hull.solid.head.vertices; ++k)
+                farthest = std::max(farthest, glm::length(physics::hull_vertex(hull.state.hull_table(), hull.solid.hull, k)));
+            const float radius = physics::bounding_radius(hull.state.properties[0]);
+            CHECK(radius >= farthest);
+            CHECK(radius <= farthest + glm::length(hull.state.properties[0].size) / 15);
         }
     }
 }
