@@ -27,10 +27,9 @@ physics::BodyProperties simple_form(const SimpleShape& shape) {
     physics::BodyProperties made{};
     made.shape = static_cast<physics::uint>(shape.index());
     made.size = record_size(shape);
-    if (const auto* hull = std::get_if<Hull>(&shape)) {
-        double farthest = 0;
-        for (const glm::dvec3& vertex : hull->form->vertices) farthest = std::max(farthest, glm::length(vertex));
-        const double nearer = 16 * (1 - 1.00001 * farthest / glm::length(glm::dvec3(made.size)));
+    if (std::holds_alternative<Hull>(shape)) {
+        const double farthest = 1.00001 * static_cast<double>(bounding_radius(whole_shape(shape)));
+        const double nearer = 16 * (1 - farthest / glm::length(glm::dvec3(made.size)));
         made.flags = static_cast<physics::uint>(std::clamp(nearer, 0.0, double{physics::ROW_REACH_MOST}))
                      << physics::ROW_REACH_SHIFT;
     }

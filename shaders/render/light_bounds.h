@@ -60,7 +60,7 @@ LightBounds bounds_of_place(uint place) {
     BodyProperties t = properties[body];
     if (is_absent(t.motion)) return nothing_lit();
     if (t.shape == SHAPE_TRIANGLE) return box_bounds();
-    float reach = bounding_radius(t.shape, t.size);
+    float reach = bounding_radius(t);
     if ((t.motion & 3u) == MOTION_FIXED && reach > frame.box_high.w) return nothing_lit();
     vec3 center = poses[body].position - frame.eye.xyz;
     vec3 sun = frame.toward_sun.xyz;

@@ -87,62 +87,63 @@ vec3 farthest_of_all(const LoadedScene& hull, vec3 direction) {
     return farthest;
 }
 
-constexpr int sizes[] = {6, 8, 9, 14, 19, 20, 32, 64};
-const vec3 forms[] = {vec3(0.5f), vec3(2, 0.2f, 0.5f), vec3(0.1f, 1, 0.1f), vec3(3, 2, 0.4f)};
+// Hulls of each number of corners, round and long, flat and broad.
+template <class Check>
+void for_each_hull(std::initializer_list<int> corners, Chance& chance, const Check& check) {
+    for (const int count : corners) {
+        for (const vec3 form : {vec3(0.5f), vec3(2, 0.2f, 0.5f), vec3(0.1f, 1, 0.1f), vec3(3, 2, 0.4f)}) {
+            CAPTURE(count, form.x, form.y, form.z);
+            check(hull_of(count, form, chance));
+        }
+    }
+}
 
 }  // namespace
 
 TEST_CASE("by its cells a hull finds the very corner that looking at all of them finds") {
     Chance chance(3);
-    for (const int size : sizes) {
-        for (const vec3 form : forms) {
-            const LoadedScene hull = hull_of(size, form, chance);
-            CAPTURE(size, form.x, form.y, form.z);
-            REQUIRE((hull.solid.head.across > 0) == (hull.solid.head.vertices >= 9));
-            for (int k = 0; k < 3000; ++k) {
-                const vec3 direction = telling_direction(hull, k, chance);
-                const vec3 found = physics::farthest_vertex(hull.solid, direction, hull.state.hull_table());
-                if (found != farthest_of_all(hull, direction))
-                    FAIL("direction " << direction.x << ", " << direction.y << ", " << direction.z);
-            }
+    for_each_hull({6, 8, 9, 14, 19, 20, 32, 64}, chance, [&](const LoadedScene& hull) {
+        REQUIRE((hull.solid.head.across > 0) == (hull.solid.head.vertices >= 9));
+        for (int k = 0; k < 3000; ++k) {
+            const vec3 direction = telling_direction(hull, k, chance);
+            const vec3 found = physics::farthest_vertex(hull.solid, direction, hull.state.hull_table());
+            if (found != farthest_of_all(hull, direction))
+                FAIL("direction " << direction.x << ", " << direction.y << ", " << direction.z);
         }
-    }
+    });
 }
 
 TEST_CASE("a hull's cell lists what reaches farthest in directions near it, and the faces that look that way") {
     Chance chance(4);
     std::size_t listed = 0, asked = 0;
-    for (const int size : {9, 16, 32, 64}) {
-        for (const vec3 form : forms) {
-            const LoadedScene hull = hull_of(size, form, chance);
-            const physics::Hulls table = hull.state.hull_table();
-            for (int k = 0; k < 1000; ++k) {
-                const vec3 direction = glm::normalize(telling_direction(hull, k, chance));
-                const physics::Corners corners = physics::corners_towards(hull.solid, direction, table);
-                std::set<physics::uint> numbers;
-                for (physics::uint i = 0; i < corners.count; ++i) numbers.insert(physics::corner_in(corners, i));
-                listed += numbers.size();
-                ++asked;
-                const vec3 aside = glm::cross(direction, any_direction(chance));
-                if (glm::length(aside) < 0.1f) continue;
-                const vec3 near = direction + 0.0305f * glm::normalize(aside);  // 1.75 degrees
-                const vec3 farthest = farthest_of_all(hull, near);
-                const bool has = std::any_of(numbers.begin(), numbers.end(), [&](physics::uint i) {
-                    return physics::hull_vertex(table, hull.solid.hull, i) == farthest;
-                });
-                if (!has) FAIL(size << " corners, direction " << near.x << ", " << near.y << ", " << near.z);
+    for_each_hull({9, 16, 32, 64}, chance, [&](const LoadedScene& hull) {
+        const physics::Hulls table = hull.state.hull_table();
+        for (int k = 0; k < 1000; ++k) {
+            const vec3 direction = glm::normalize(telling_direction(hull, k, chance));
+            const physics::Corners corners = physics::corners_towards(hull.solid, direction, table);
+            std::set<physics::uint> numbers;
+            for (physics::uint i = 0; i < corners.count; ++i) numbers.insert(physics::corner_in(corners, i));
+            listed += numbers.size();
+            ++asked;
+            const vec3 aside = glm::cross(direction, any_direction(chance));
+            if (glm::length(aside) < 0.1f) continue;
+            const vec3 near = direction + 0.0305f * glm::normalize(aside);  // 1.75 degrees
+            const vec3 farthest = farthest_of_all(hull, near);
+            const bool has = std::any_of(numbers.begin(), numbers.end(), [&](physics::uint i) {
+                return physics::hull_vertex(table, hull.solid.hull, i) == farthest;
+            });
+            if (!has) FAIL("direction " << near.x << ", " << near.y << ", " << near.z);
 
-                const physics::Faces faces = physics::faces_towards(hull.solid, direction, table);
-                std::set<physics::uint> shown;
-                for (physics::uint i = 0; i < faces.count; ++i) shown.insert(physics::face_at(faces, i));
-                for (physics::uint i = 0; i < hull.solid.head.faces; ++i) {
-                    const vec4 plane = physics::hull_plane(table, hull.solid.hull, hull.solid.head, i);
-                    if (!shown.contains(i) && glm::dot(vec3(plane), direction) > faces.beyond)
-                        FAIL(size << " corners, face " << i << " looks more that way than the cell says");
-                }
+            const physics::Faces faces = physics::faces_towards(hull.solid, direction, table);
+            std::set<physics::uint> shown;
+            for (physics::uint i = 0; i < faces.count; ++i) shown.insert(physics::face_at(faces, i));
+            for (physics::uint i = 0; i < hull.solid.head.faces; ++i) {
+                const vec4 plane = physics::hull_plane(table, hull.solid.hull, hull.solid.head, i);
+                if (!shown.contains(i) && glm::dot(vec3(plane), direction) > faces.beyond)
+                    FAIL("face " << i << " looks more that way than the cell says");
             }
         }
-    }
+    });
     CHECK(static_cast<double>(listed) / static_cast<double>(asked) < 9);  // else cells would not save work
 }
 
@@ -192,16 +193,12 @@ TEST_CASE("the best of two hulls' faces is the best of all of them, however deep
 
 TEST_CASE("the ball about a hull holds its vertices, and is little larger than they ask for") {
     Chance chance(5);
-    for (const int size : sizes) {
-        for (const vec3 form : forms) {
-            const LoadedScene hull = hull_of(size, form, chance);
-            CAPTURE(size, form.x, form.y, form.z);
-            float farthest = 0;
-            for (physics::uint k = 0; k < hull.solid.head.vertices; ++k)
-                farthest = std::max(farthest, glm::length(physics::hull_vertex(hull.state.hull_table(), hull.solid.hull, k)));
-            const float radius = physics::bounding_radius(hull.state.properties[0]);
-            CHECK(radius >= farthest);
-            CHECK(radius <= farthest + glm::length(hull.state.properties[0].size) / 15);
-        }
-    }
+    for_each_hull({6, 8, 9, 14, 19, 20, 32, 64}, chance, [](const LoadedScene& hull) {
+        float farthest = 0;
+        for (physics::uint k = 0; k < hull.solid.head.vertices; ++k)
+            farthest = std::max(farthest, glm::length(physics::hull_vertex(hull.state.hull_table(), hull.solid.hull, k)));
+        const float radius = physics::bounding_radius(hull.state.properties[0]);
+        CHECK(radius >= farthest);
+        CHECK(radius <= farthest + glm::length(hull.state.properties[0].size) / 15);
+    });
 }

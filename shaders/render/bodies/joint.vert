@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
+#include "shaders/physics/body/body_scale.h"
 #include "shaders/render/marks/lines.h"
 
 layout(std430, set = 0, binding = 21) readonly buffer JointTable {
@@ -36,7 +37,7 @@ End end_of(uint body, vec3 anchor) {
     end.middle = poses[body].position - frame.eye.xyz;
     end.anchor = end.middle + turned(poses[body].orientation, anchor);
     end.is_body = properties[body].shape != SHAPE_PLANE;
-    end.reach = end.is_body ? bounding_radius(properties[body].shape, properties[body].size) : 0.0;
+    end.reach = end.is_body ? bounding_radius(properties[body]) : 0.0;
     end.inverse_mass = properties[body].inverse_mass;
     return end;
 }

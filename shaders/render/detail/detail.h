@@ -2,6 +2,7 @@
 #ifndef SCREE_RENDER_DETAIL_H
 #define SCREE_RENDER_DETAIL_H
 
+#include "shaders/physics/body/body_scale.h"
 #include "shaders/render/body_tables.h"
 #include "shaders/render/frame.h"
 
@@ -49,9 +50,8 @@ uint run_of_place(uint place) {
                  : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES
                  : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES
                                                          : RUN_ALL_SPHERES;
-    float reach = t.shape == SHAPE_TRIANGLE
-                      ? 1e9
-                      : bounding_radius(t.shape, t.size);  // a triangle row draws a whole patch of its mesh: never cull
+    float reach =
+        t.shape == SHAPE_TRIANGLE ? 1e9 : bounding_radius(t);  // a triangle row draws a whole patch of its mesh: never cull
     return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, shape == RUN_ALL_SPHERES ? reach : t.size.x);
 }
 

@@ -74,7 +74,7 @@ void main() {
         out_color = vec4(VELOCITY, 0.95);
         vec3 velocity = velocities[at.body].linear;
         if ((t.motion & 3u) != MOTION_FIXED && length(velocity) > SLOWEST)
-            draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, bounding_radius(t.shape, t.size), at.corner);
+            draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, bounding_radius(t), at.corner);
         return;
     }
     Bounds around = bounds[at.body];
