@@ -311,6 +311,17 @@ struct Fields {
     bool any() const { return wind || water || !attractors.empty(); }
 };
 
+// A periodic cell: what leaves it through one side comes back through the opposite one, and each body meets the nearest image of
+// every other, so that a few thousand bodies stand for endlessly many. Along an axis where the size is 0 there is none.
+struct PeriodicCell {
+    vec3 size{0};    // m, 0 or 1e-2 to 1e5, and then at least four times the bounding radius of each grain
+    vec3 centre{0};  // m
+    // 1/s, -10 to 10, at which it stretches about its centre along each axis; bodies at its sides are drawn along by their
+    // images.
+    vec3 rate{0};
+    bool any() const { return size.x > 0 || size.y > 0 || size.z > 0; }
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
@@ -319,6 +330,7 @@ struct Scene {
     std::vector<Exclusion> exclusions{};
     Fields fields{};
     std::vector<Bond> bonds{};
+    PeriodicCell periodic{};
 };
 
 // A joint of two bodies of the scene (or the world) at their present poses, from anchor and x axis in world

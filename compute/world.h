@@ -331,6 +331,9 @@ public:
     void set_gravity(vec3 gravity);          // m/s^2
     void set_friction_factor(float factor);  // scales the friction of every pair, 0 to 10
     void set_fields(const Fields& fields);   // wind, water, attractors; throws SceneError
+    // Rate at which the scene's periodic cell stretches, 1/s; scene().periodic tells its size now. Until it is 0 nothing sleeps.
+    // Throws SceneError, and std::domain_error from the step() before which the cell has become too narrow for a body.
+    void set_cell_rate(vec3 rate);
     // Lower bound of every pair's restitution, 0 to 1.
     void set_least_restitution(float restitution);
     // From the next step on. Reads contacts and joints back and uploads them again once.

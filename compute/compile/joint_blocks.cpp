@@ -434,16 +434,18 @@ void take_joint_tables(State& state, JointTables tables) {
     state.joint_groups = joint_groups(state.joints, state.joint_blocks, state.fixed().joint_blocks);
 }
 
-physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b) {
-    return physics::turned_configuration(
-        physics::joint_configuration(joint.anchor_a, joint.frame_a, a, joint.anchor_b, joint.frame_b, b), joint.flags,
-        joint.twist, joint.axes[3], joint.axes[4], joint.axes[5]);
+physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b,
+                                             const physics::Parameters& p) {
+    physics::JointConfiguration at =
+        physics::joint_configuration(joint.anchor_a, joint.frame_a, a, joint.anchor_b, joint.frame_b, b);
+    if (physics::is_periodic(p)) at = physics::at_nearest_image(at, p);
+    return physics::turned_configuration(at, joint.flags, joint.twist, joint.axes[3], joint.axes[4], joint.axes[5]);
 }
 physics::JointConfiguration configuration_of(const State& state, const physics::Joint& joint) {
     const auto pose = [&](physics::uint body) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
-    return configuration_of(joint, pose(joint.a), pose(joint.b));
+    return configuration_of(joint, pose(joint.a), pose(joint.b), state.fixed());
 }
 
 float first_turns(const State& state, const physics::Joint& joint, std::optional<float> angle) {

@@ -47,7 +47,8 @@ physics::JointAxis axis_record(const JointAxes& axes, std::size_t k);
 void set_axis_record(physics::Joint& joint, const JointAxes& axes, std::size_t k);  // of a joint whose flags are set
 physics::JointRotor rotor_record(const Axis& axis);
 // The coordinates of a joint whose bodies are at these poses.
-physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b);
+physics::JointConfiguration configuration_of(const physics::Joint& joint, const physics::Pose& a, const physics::Pose& b,
+                                             const physics::Parameters& p);
 physics::JointConfiguration configuration_of(const State& state, const physics::Joint& joint);
 // The rate of a coordinate of the record in that configuration; `flags`: those of the joint that count.
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k, const physics::JointConfiguration& at,

@@ -40,6 +40,24 @@ void lay_out_grid(std::vector<physics::BodyProperties>& properties, physics::Par
 
 }  // namespace
 
+bool is_stretching(const physics::Parameters& p) {
+    return p.cell_rate != vec3(0);
+}
+
+void set_period(physics::Parameters& p, const PeriodicCell& cell) {
+    p.period = cell.size;
+    p.cell_centre = cell.centre;
+    for (int k = 0; k < 3; ++k) {
+        p.half_period[k] = cell.size[k] > 0 ? 0.5f * cell.size[k] : 1e30f;
+        p.inverse_period[k] = cell.size[k] > 0 ? 1 / cell.size[k] : 0.0f;
+    }
+    p.cell_rate = physics::flush_tiny(cell.rate);
+}
+
+PeriodicCell periodic_cell(const physics::Parameters& p) {
+    return {p.period, p.cell_centre, p.cell_rate};
+}
+
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
     p.gravity = physics::flush_tiny(gravity);
     p.dt = 1 / settings.rate;
@@ -59,7 +77,7 @@ physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& s
     p.max_speed = settings.max_speed;
     p.max_spin = settings.max_turn * p.inverse_h;
     p.sleep_speed = settings.sleep_speed;
-    p.sleep_steps = sleep_steps_of(settings);
+    p.sleep_steps = is_stretching(p) ? physics::NO_SLEEP : sleep_steps_of(settings);
     p.friction_factor = settings.friction_factor;
     p.least_restitution = settings.least_restitution;
     return p;
@@ -99,7 +117,9 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         std::count_if(properties.begin() + n, properties.end(),
                       [](const physics::BodyProperties& part) { return physics::motion_of(part) != physics::MOTION_FIXED; }));
 
-    state_.parameters.assign(1, tuned({}, scene.gravity, settings));
+    physics::Parameters first{};
+    set_period(first, scene.periodic);
+    state_.parameters.assign(1, tuned(first, scene.gravity, settings));
     physics::Parameters& p = state_.fixed();
     p.copies = std::max(1u, copies);
     p.bodies_of_copy = copies ? n / copies : 0;

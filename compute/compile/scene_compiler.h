@@ -17,6 +17,10 @@ struct MeshForm;  // compute/scene/meshes/mesh.h
 physics::uint sleep_steps_of(const Settings& settings);
 // The parameters with new gravity and settings; the others unchanged.
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
+// The periodic cell; tuned() afterwards, since bodies in one that stretches do not sleep.
+void set_period(physics::Parameters& p, const PeriodicCell& cell);
+PeriodicCell periodic_cell(const physics::Parameters& p);
+bool is_stretching(const physics::Parameters& p);
 
 // Capacities of the lists of pairs and contacts on each of `ranks`: the settings', or a first guess for so many bodies and moving
 // parts in all.

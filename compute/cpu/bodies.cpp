@@ -14,6 +14,7 @@
 #include "shaders/physics/body/grab_spring.h"
 #include "shaders/physics/body/mass_splitting.h"
 #include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/periodic_cell.h"
 #include "shaders/physics/body/quarantine.h"
 #include "shaders/physics/impact/impact_state.h"
 #include "shaders/physics/sleep/sleep.h"
@@ -119,6 +120,16 @@ void begin_step(State& state, const Threads& threads, std::uint32_t) {
     if (state.fixed().wake_all)
         for (physics::uint& rest : state.sleep_states) rest = physics::roused(rest, state.fixed().sleep_steps);
     state.counted() = physics::emptied(state.counted(), state.fixed());
+}
+
+void enter_cell(State& state, const Threads& threads, std::uint32_t) {
+    if (state.fixed().redo) return;  // a repeated step begins where the first attempt did
+    threads.for_each(state.fixed().first_part, [&](std::size_t i) {
+        if (state.properties[i].motion == physics::MOTION_FIXED) return;
+        const physics::Image inside = physics::image_inside(state.poses[i].position, state.fixed());
+        state.poses[i] = physics::at_image(state.poses[i], inside);
+        state.velocities[i] = physics::at_image(state.velocities[i], inside);
+    });
 }
 
 void apply_actions(State& state, const Threads&, std::uint32_t) {

@@ -1,6 +1,7 @@
 // Reference stages of bonds: what they change of their bodies' velocities, and whether they break.
 #include "shaders/physics/bond/bond.h"
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/body/quarantine.h"
 
@@ -22,9 +23,10 @@ void pull_bond(State& state, std::size_t i) {
     physics::VelocityPair change{};
     bool holds = state.bond_states[i] == 0;
     if (holds) {
+        const MetBody b = as_met(state, bond.a, bond.b);
         const physics::BondPull found = physics::pull_of_bond(
-            bond, state.poses[bond.a], state.poses[bond.b], {state.velocities[bond.a], state.velocities[bond.b]},
-            physics::whole_mass(state.masses[bond.a]), physics::whole_mass(state.masses[bond.b]), state.fixed());
+            bond, state.poses[bond.a], b.pose, {state.velocities[bond.a], b.velocity}, physics::whole_mass(state.masses[bond.a]),
+            physics::whole_mass(state.masses[bond.b]), state.fixed());
         holds = !physics::is_out_of_play(state.properties[bond.a].motion) &&
                 !physics::is_out_of_play(state.properties[bond.b].motion) && !physics::bond_breaks(found, bond);
         if (holds)

@@ -20,13 +20,20 @@ bool still(const State& state, std::uint32_t body) {
     return (state.bounds[body].level & physics::INACTIVE) != 0;
 }
 
-bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
+bool near_large(const State& state, std::size_t body, physics::CellEntry other) {
     const physics::Bounds& own = state.bounds[body];
     const auto plane_reached = [&](std::size_t plane, physics::vec3 lower, physics::vec3 upper) {
         return physics::reaches_plane(lower, upper, state.properties[plane].size, state.poses[plane].position);
     };
     if (state.properties[other.body].shape == physics::SHAPE_PLANE) return plane_reached(other.body, own.lower, own.upper);
     if (state.properties[body].shape == physics::SHAPE_PLANE) return plane_reached(body, other.lower, other.upper);
+    if (state.is_periodic()) {
+        const vec3 apart = physics::middle_of(other.lower, other.upper) - physics::middle_of(own.lower, own.upper);
+        const physics::Image image =
+            physics::image_of_b(state.properties[body], state.properties[other.body], apart, state.fixed());
+        other.lower = other.lower + image.shift;
+        other.upper = other.upper + image.shift;
+    }
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
 
@@ -73,6 +80,24 @@ bool may_collide(const State& state, std::uint32_t row, std::uint32_t other) {
     return true;
 }
 
+// Calls visit(bounds, periods) for a body, and for those images of it that may overlap bodies of a level.
+template <typename Visit>
+void for_each_image(const State& state, const physics::Bounds& around, std::uint32_t level, const Visit& visit) {
+    if (!state.is_periodic()) return visit(around, vec3(0));
+    const physics::ImageRange images = physics::images_in_reach(around.lower, around.upper, level, state.fixed());
+    for (physics::ivec3 at = images.first; at.z <= images.last.z; at = physics::next_image(at, images)) {
+        const physics::Image image = physics::image_at(vec3(at), state.fixed());
+        physics::Bounds there = around;
+        there.lower = there.lower + image.shift;
+        there.upper = there.upper + image.shift;
+        visit(there, image.periods);
+    }
+}
+bool is_nearest_image(const State& state, const vec3& periods, const physics::Bounds& own, const physics::CellEntry& other) {
+    const vec3 apart = physics::middle_of(other.lower, other.upper) - physics::middle_of(own.lower, own.upper);
+    return physics::is_nearest_image(periods, apart, state.fixed());
+}
+
 // Where a body looks for partners on its own level: in all cells in reach, for pairs that it owns; or only in the cells
 // from its own on, in the order of their coordinates, for pairs that either owns; or on all levels in the list of rows that were
 // near it (near_rows.h), for the same.
@@ -89,7 +114,7 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     const physics::BodyProperties& own = state.properties[body];
     const std::uint32_t id = state.id_of(body);
     const bool joined = state.has_joints(), filtered = !state.filters.empty();
-    const bool is_shared = !state.presence.empty();
+    const bool is_shared = !state.presence.empty(), is_periodic = state.is_periodic();
     const auto found_by = [&](std::uint32_t owner, std::uint32_t other) {
         if (is_shared && !state.is_owned(owner) && !state.is_owned(other)) return;
         if (filtered && !may_collide(state, owner, other)) return;
@@ -123,21 +148,24 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         if (search == Search::ahead && level == (around.level & physics::LEVEL_BITS)) continue;
-        const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
-        const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
         const std::uint32_t key = level | of_copy;
-        RowOfCells cell_row{state, range.first};
-        physics::ivec3& from = cell_row.from;
-        const auto visit = [&](std::span<const physics::CellEntry> row) {
-            for (const physics::CellEntry& other : row) {
-                if (!(int{overlap(around, other)} & int{key_of(other) == key} & int{cell_row.has(cell_row.cell_of(other))}))
-                    continue;
-                if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
-                if (can_touch(state, body, own, other)) found(other.body);
-            }
-        };
-        for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
-            for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, key, visit);
+        for_each_image(state, around, level, [&](const physics::Bounds& there, const vec3& periods) {
+            const physics::CellRange range = physics::cells_in_reach(there.lower, there.upper, level, p);
+            const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
+            RowOfCells cell_row{state, range.first};
+            physics::ivec3& from = cell_row.from;
+            const auto visit = [&](std::span<const physics::CellEntry> row) {
+                for (const physics::CellEntry& other : row) {
+                    if (!(int{overlap(there, other)} & int{key_of(other) == key} & int{cell_row.has(cell_row.cell_of(other))}))
+                        continue;
+                    if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
+                    if (is_periodic && !is_nearest_image(state, periods, around, other)) continue;
+                    if (can_touch(state, body, own, other)) found(other.body);
+                }
+            };
+            for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
+                for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, key, visit);
+        });
     }
     if (search == Search::around) return;
     const std::uint32_t level = around.level & physics::LEVEL_BITS, key = level | of_copy;
@@ -200,7 +228,7 @@ void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     const auto note = [&](std::uint32_t owner, std::uint32_t other, std::uint32_t place) {
         if (place < CpuScratch::noted) state.scratch.partners[owner][place] = other;
     };
-    if (state.scratch.still_entries < bodies / most_still) {
+    if (state.scratch.still_entries < bodies / most_still && !state.is_periodic()) {
         const auto list = [&](std::uint32_t owner, std::uint32_t other) { note(owner, other, taken(threads, counts[owner])); };
         const bool listed = find_near_rows(state, threads);
         threads.for_each(bodies, [&](std::size_t i) {

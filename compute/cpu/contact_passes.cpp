@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "compute/cpu/contact_runs.h"
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/passes.h"
 #include "shaders/physics/contact/contact_pass.h"
@@ -13,7 +14,8 @@ namespace scree::reference {
 namespace {
 
 physics::VelocityPair velocities_of(const State& state, const physics::Constraint& c) {
-    return {state.velocities[c.a], state.velocities[c.b]};
+    const physics::Velocity& b = state.velocities[c.b];
+    return {state.velocities[c.a], state.is_periodic() ? physics::at_image(b, physics::image_in(c, state.fixed())) : b};
 }
 
 // Read only where restitution is possible. `debt`: the contact's part of its bodies' debts.
@@ -69,6 +71,7 @@ void prepare_constraint(State& state, std::size_t i) {
     const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
     c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, parameters_of(state, a));
     c = physics::with_joints(c, state.properties[a].joints, state.properties[b].joints);
+    if (state.is_periodic()) c = physics::meeting_image(c, image_met(state, contact.a, contact.b));
     if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
         c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
                                    state.poses[b].orientation, p);

@@ -1,5 +1,6 @@
 // Reference contact stages before the solver: contacts, and the warm start from the last step.
 #include "compute/cpu/contact_runs.h"
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/contact/contact_preparation.h"
 
@@ -30,11 +31,12 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
     if (idle) return prepared;
     prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
     if (physics::rebounds_across(physics::contact_impact_of(prepared.impulse))) {
-        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        const std::uint32_t a = state.body_of(pair.a);
         const physics::Parameters parameters = parameters_of(state, a);
-        prepared.impulse = physics::settled_impact(
-            prepared.impulse, physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, parameters), was,
-            physics::constraint_of(before, ta, tb, slot_a, slot_b, parameters), {state.velocities[a], state.velocities[b]});
+        prepared.impulse = physics::settled_impact(prepared.impulse,
+                                                   physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, parameters),
+                                                   was, physics::constraint_of(before, ta, tb, slot_a, slot_b, parameters),
+                                                   {state.velocities[a], as_met(state, pair.a, pair.b).velocity});
     }
     return prepared;
 }
@@ -50,7 +52,7 @@ void make_contacts(State& state, const Threads& threads, std::uint32_t) {
             physics::is_carried_forward(pair.pair_type)
                 ? state.contacts_before[pair.previous]
                 : physics::contact_of(pair, state.scratch.pair_manifolds[i], state.point_counts[i],
-                                      state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
+                                      state.poses[state.body_of(pair.a)], as_met(state, pair.a, pair.b).pose);
         state.contact_pairs[contact] = static_cast<std::uint32_t>(i);
         state.contact_slots[2 * contact] = state.contact_slots[2 * contact + 1] = physics::NONE;
         if (!state.reordered()) return;

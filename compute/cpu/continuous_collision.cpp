@@ -3,6 +3,7 @@
 #include <atomic>
 #include <vector>
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/body/motion.h"
@@ -26,19 +27,38 @@ void lower(physics::uint& bits, physics::uint to) {
     while (to < was && !value.compare_exchange_weak(was, to, std::memory_order_relaxed)) continue;
 }
 
-physics::MotionPath course(const State& state, std::uint32_t row, float until) {
+// Where a body starts and ends in a step.
+struct Ends {
+    vec3 start;
+    physics::Pose end;
+};
+Ends ends_of(const State& state, std::uint32_t body) {
+    return {state.bounds[body].sweep.position, state.poses[body]};
+}
+// Of B, of two rows whose bodies they are, as A meets it.
+Ends ends_met(const State& state, std::uint32_t row_a, std::uint32_t row_b) {
+    Ends b = ends_of(state, state.body_of(row_b));
+    if (!state.is_periodic()) return b;
+    const vec3 start_a = state.bounds[state.body_of(row_a)].sweep.position;
+    const physics::Image image =
+        physics::image_of_b(state.properties[row_a], state.properties[row_b], b.start - start_a, state.fixed());
+    b.start = b.start + image.shift;
+    b.end = physics::end_of_sweep(physics::at_image(b.end, image), image, state.fixed());
+    return b;
+}
+
+physics::MotionPath course(const State& state, std::uint32_t row, const Ends& ends, float until) {
     const std::uint32_t body = state.body_of(row);
-    const physics::Sweep& sweep = state.bounds[body].sweep;
     const physics::MotionPath whole =
-        physics::path_of(state.properties[body], sweep.position, sweep.orientation, state.poses[body], until);
+        physics::path_of(state.properties[body], ends.start, state.bounds[body].sweep.orientation, ends.end, until);
     return row == body ? whole : physics::path_of_part(state.properties[row], state.part_in(row), whole);
 }
 
-physics::Way way(const State& state, std::uint32_t row, float until) {
+physics::Way way(const State& state, std::uint32_t row, const Ends& ends, float until) {
     const std::uint32_t body = state.body_of(row);
     const float reach = physics::reach_of(state.properties[row]);
-    return physics::way_of(row == body ? reach : reach + physics::length3(state.part_in(row).position),
-                           state.bounds[body].sweep.position, state.poses[body].position, until);
+    return physics::way_of(row == body ? reach : reach + physics::length3(state.part_in(row).position), ends.start,
+                           ends.end.position, until);
 }
 
 // Pairs of which a body was fast.
@@ -76,6 +96,13 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         if ((paces[0] | paces[1]) == 0) return;
         const bool driving[2] = {(paces[0] & drives) != 0, (paces[1] & drives) != 0};
         const bool any_fast = ((paces[0] | paces[1]) & fast) != 0;
+        physics::Pose pose_b = state.poses[b];
+        physics::Velocity velocity_b = state.velocities[b];
+        if (state.is_periodic()) {
+            const physics::Image image = image_met(state, a, b);
+            pose_b = physics::at_image(pose_b, image);
+            velocity_b = physics::at_image(velocity_b, image);
+        }
         const physics::Manifold& manifold = state.scratch.pair_manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
         const bool rebounds =
@@ -83,13 +110,13 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         const bool holds = !any_fast || rebounds ||
                            physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
                            physics::will_meet(manifold.normal, cosine, state.properties[a], state.poses[a], state.velocities[a],
-                                              state.forces[bodies[0]], state.properties[b], state.poses[b], state.velocities[b],
+                                              state.forces[bodies[0]], state.properties[b], pose_b, velocity_b,
                                               state.forces[bodies[1]], p, state.hull_table());
         if (!holds) {
             state.point_counts[i] |= physics::SPECULATIVE;
             return;
         }
-        const bool struck = any_fast && physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b]);
+        const bool struck = any_fast && physics::is_impacting(manifold.normal, state.velocities[a], velocity_b);
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t body = bodies[side];
             const bool driven =
@@ -136,8 +163,10 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
                                               state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
         const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
-        const physics::Nearing near = physics::nearing_of(way(state, rows[0], stops[0]), way(state, rows[1], stops[1]),
-                                                          physics::touch_of(ta, tb, state.fixed()));
+        const Ends ends_a = ends_of(state, bodies[0]), ends_b = ends_met(state, rows[0], rows[1]);
+        const physics::Nearing near =
+            physics::nearing_of(way(state, rows[0], ends_a, stops[0]), way(state, rows[1], ends_b, stops[1]),
+                                physics::touch_of(ta, tb, state.fixed()));
         float bound = 0;  // what this pair may lower
         for (int side = 0; side < 2; ++side) {
             const std::atomic_ref found(state.bounds[bodies[side]].sweep.stops[next]);
@@ -148,7 +177,7 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         const auto joined = [&](int side) { return state.properties[bodies[side]].joints != physics::NONE; };
         const bool only_joined = (!clamps[0] || joined(0)) && (!clamps[1] || joined(1));
         const physics::Impact impact = physics::impact_of(
-            ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]), near, bound,
+            ta, course(state, rows[0], ends_a, stops[0]), tb, course(state, rows[1], ends_b, stops[1]), near, bound,
             physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1], only_joined),
                                state.fixed()),
             false, state.hull_table());

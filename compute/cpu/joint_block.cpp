@@ -109,7 +109,7 @@ void JointBlock::describe(JointRoom& room) {
 
 void JointBlock::place(Joint& joint) {
     if ((joint.flags & physics::JOINT_COUPLES) != 0) return;
-    const physics::JointConfiguration at = configuration_of(joint, pose(joint.a), pose(joint.b));
+    const physics::JointConfiguration at = configuration_of(joint, pose(joint.a), pose(joint.b), p_);
     joint.twist = at.turned;
     const physics::VelocityPair v = speeds(joint);
     for (int k = 0; k < 6; ++k)

@@ -74,6 +74,7 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
                       const SolveEqual& solve_equal) {
     if (state.counted().overflow) return;
     const JointGroups& groups = state.joint_groups;
+    const int lanes = state.is_periodic() ? 1 : threads.lanes();  // lanes do not ask for images
     const std::size_t cuts = groups.cuts.size() - 1, parts = parts_of(cuts, threads);
     threads.for_each(parts, [&](std::size_t part) {
         thread_local EqualBlocks equal;
@@ -83,13 +84,13 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
         std::size_t at = groups.cuts[part * cuts / parts];
         const std::size_t last = groups.cuts[(part + 1) * cuts / parts];
         while (at < last) {
-            at = equal.take(state, at, last, threads.lanes());
+            at = equal.take(state, at, last, lanes);
             if (!equal.blocks().empty() && state.joint_blocks[equal.blocks().front()].couplings != 0)
                 coupled.insert(coupled.end(), equal.blocks().begin(), equal.blocks().end());
             else if (!solve_equal(equal))
                 single.insert(single.end(), equal.blocks().begin(), equal.blocks().end());
         }
-        pass_singly(state, threads.lanes(), single, begin, finish);
+        pass_singly(state, lanes, single, begin, finish);
         pass_singly(state, 1, coupled, begin, finish);
     });
 }

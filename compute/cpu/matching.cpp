@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/body/motion.h"
@@ -67,9 +68,10 @@ bool may_persist(const State& state, const physics::Pair& pair) {
            physics::has_weight(parameters_of(state, state.body_of(pair.a)));
 }
 bool persists(const State& state, const physics::Pair& pair) {
-    const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+    const std::uint32_t a = state.body_of(pair.a);
+    const MetBody b = as_met(state, pair.a, pair.b);
     return physics::is_persistent(state.contacts_before[pair.previous], state.properties[pair.a], state.poses[a],
-                                  state.velocities[a], state.properties[pair.b], state.poses[b], state.velocities[b]);
+                                  state.velocities[a], state.properties[pair.b], b.pose, b.velocity);
 }
 
 }  // namespace

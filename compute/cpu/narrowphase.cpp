@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
@@ -55,8 +56,13 @@ void relate_to_body(State& state, std::size_t index) {
 void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
     const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
     const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
-    const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
+    physics::Velocity va = state.velocities[a], vb = state.velocities[b];
     physics::Pose pa = state.poses[a], pb = state.poses[b];
+    if (state.is_periodic()) {
+        const physics::Image image = image_met(state, state.pairs[index].a, state.pairs[index].b);
+        pb = physics::at_image(pb, image);
+        vb = physics::at_image(vb, image);
+    }
     const physics::Margin margin =
         physics::margin_of(ta, va, tb, vb, pb.position - pa.position, parameters_of(state, state.pairs[index].a));
     if (margin.closing < 0) {
@@ -184,7 +190,7 @@ void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
         state.scratch.pair_manifolds[index] =
-            physics::persistent_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
+            physics::persistent_manifold(contact, state.poses[state.body_of(pair.a)], as_met(state, pair.a, pair.b).pose);
         state.point_counts[index] = contact.count;
     });
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 
 namespace scree::reference {
@@ -16,7 +17,8 @@ void drop_hidden(State& state, const Threads& threads, std::uint32_t) {
         const physics::uint seams_a = seams_of(pair.a), seams_b = seams_of(pair.b);
         if (seams_a == 0 && seams_b == 0) return;
         const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-        const physics::Pose &pa = state.poses[pair.a], &pb = state.poses[pair.b];
+        physics::Pose pa = state.poses[pair.a], pb = state.poses[pair.b];
+        if (state.is_periodic()) pb = physics::at_image(pb, image_met(state, pair.a, pair.b));
         const vec3 offset = pa.position - state.poses[state.body_of(pair.a)].position;
         physics::ManifoldBuffer touch{state.scratch.pair_manifolds[i], state.point_counts[i]};
         touch = physics::shown_manifold(physics::from_body(touch, -offset), ta, pa, seams_a, tb, pb, seams_b, state.hull_table());

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "compute/cpu/images.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
@@ -52,9 +53,10 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[index];
         if (!stirred(state, pair.a) && !stirred(state, pair.b)) return;
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        const MetBody met = as_met(state, pair.a, pair.b);
         const float approach = physics::approach_of(
-            state.scratch.pair_manifolds[index], state.point_counts[index], state.poses[b].position - state.poses[a].position,
-            state.velocities[a], state.velocities[b],
+            state.scratch.pair_manifolds[index], state.point_counts[index], met.pose.position - state.poses[a].position,
+            state.velocities[a], met.velocity,
             physics::speculative_of(state.properties[pair.a], state.properties[pair.b], state.fixed()), state.fixed());
         if (slept(state, a) && !slept(state, b) && wakes(state, pair, a, b, approach)) raise(state, a, physics::WOKEN);
         if (slept(state, b) && !slept(state, a) && wakes(state, pair, b, a, approach)) raise(state, b, physics::WOKEN);

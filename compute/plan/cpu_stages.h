@@ -14,6 +14,7 @@ namespace scree::reference {
 
 // bodies.cpp
 SCREE_STAGE(begin_step);
+SCREE_STAGE(enter_cell);
 SCREE_STAGE(apply_actions);
 SCREE_STAGE(pose_parts);
 SCREE_STAGE(compute_bounds);

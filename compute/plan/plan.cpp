@@ -19,7 +19,8 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
            (features.joints ? physics::FEATURE_JOINTS : 0) | (features.sums ? physics::FEATURE_SUMS : 0) |
            (features.surfaces ? physics::FEATURE_SURFACES : 0) | (features.filters ? physics::FEATURE_FILTERS : 0) |
            (features.copies ? physics::FEATURE_COPIES : 0) | (features.gravities ? physics::FEATURE_GRAVITIES : 0) |
-           (features.blocks ? physics::FEATURE_BLOCKS : 0) | (features.ghosts ? physics::FEATURE_GHOSTS : 0);
+           (features.blocks ? physics::FEATURE_BLOCKS : 0) | (features.ghosts ? physics::FEATURE_GHOSTS : 0) |
+           (features.periodic ? physics::FEATURE_PERIODIC : 0);
 }
 
 struct Order {
@@ -84,6 +85,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     Order s{{}, feature_bits(features)};
     // forces and actions, world bounds
     s.add("begin_step");
+    if (features.periodic) s.add("enter_cell");
     s.add("apply_actions");
     if (features.fields) s.add("apply_fields");  // after impulses: a repeated step sees the same velocities
     if (features.vehicles) s.add("drive_vehicles");

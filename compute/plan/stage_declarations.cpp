@@ -76,7 +76,7 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 void declare_broadphase(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features =
         physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES |
-        physics::FEATURE_GHOSTS;
+        physics::FEATURE_GHOSTS | physics::FEATURE_PERIODIC;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{counts}, {bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -98,7 +98,8 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
     all.push_back({"match_pairs", DispatchDomain::pairs, match_pairs,
         {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {properties, A::bodies},
          {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}, {births}, {gravities}},
-        {{pairs, A::pairs}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
+        {{pairs, A::pairs}},
+        physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES | physics::FEATURE_PERIODIC});
 }
 
 void declare_narrowphase(std::vector<StageDeclaration>& all) {
@@ -113,23 +114,23 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
         all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
             {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
-            found, reads_gravity});
+            found, reads_gravity | physics::FEATURE_PERIODIC});
         for (const Table table : {gravities, ids}) all.back().reads.push_back({table});
         if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
     all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::pair_type, collide_persistent,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {properties}},
-        found});
+        found, physics::FEATURE_PERIODIC});
     all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
         found});
     all.push_back({"drop_hidden", DispatchDomain::pairs, drop_hidden,
         {{counts}, {point_counts, A::pairs}, {pairs, A::pairs}, {properties}, {parts}, {poses, A::bodies}, {hulls}, {manifold_places, A::contacts}, {manifolds, A::contacts}},
-        {{point_counts, A::pairs}, unordered({manifolds, A::contacts})}});
+        {{point_counts, A::pairs}, unordered({manifolds, A::contacts})}, physics::FEATURE_PERIODIC});
     // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
         {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifold_places}, {manifolds}, {impacts_before}},
-        {{point_counts}, {bounds}}, physics::FEATURE_BOUNCES});
+        {{point_counts}, {bounds}}, physics::FEATURE_BOUNCES | physics::FEATURE_PERIODIC});
     declare_convex(all);
     all.push_back({"cull_speculative", DispatchDomain::ccd_pairs, cull_speculative,
         {{counts}, {point_counts, A::ccd_pairs}, {pairs}, {properties}, {bounds}},
@@ -141,13 +142,14 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"make_contacts", DispatchDomain::pairs, make_contacts,
         {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs, A::contacts}, {manifold_places, A::contacts}, {manifolds, A::contacts}, {contacts_before, A::contacts},
          {poses, A::bodies}, {properties}, {pair_starts}, {ids}},
-        {{contacts, A::contacts}, {contact_pairs, A::contacts}, {contact_slots, A::contacts}, unfinished({contact_owners, A::contacts})}, physics::FEATURE_REORDERED});
+        {{contacts, A::contacts}, {contact_pairs, A::contacts}, {contact_slots, A::contacts}, unfinished({contact_owners, A::contacts})},
+        physics::FEATURE_REORDERED | physics::FEATURE_PERIODIC});
     // Waking stages read only those bits of the sleep states that waking does not change, and counts that they do not
     // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
         {in_parts({counts}), {contact_pairs, A::stirred}, {pairs, A::stirred}, {manifold_places, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
          {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}, {gravities}, {ids}},
-        {by_atomics({sleep_states}), in_parts({counts})}, reads_gravity});
+        {by_atomics({sleep_states}), in_parts({counts})}, reads_gravity | physics::FEATURE_PERIODIC});
     all.push_back({"wake_unsupported", DispatchDomain::bodies, wake_unsupported,
         {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
          {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states}), {gravities}},
@@ -177,20 +179,20 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"warm_start_contacts", DispatchDomain::contacts, warm_start_contacts,
         {{counts}, {contact_pairs, A::contacts}, {pairs, A::contacts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {contacts_before, A::contacts}, {impulses_before, A::contacts},
          {impacts_before, A::rebounds}, {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
-        {{contacts, A::contacts, 1}, {impulses, A::contacts}, {impacts, A::rebounds}}, physics::FEATURE_BOUNCES | reads_gravity});
+        {{contacts, A::contacts, 1}, {impulses, A::contacts}, {impacts, A::rebounds}}, physics::FEATURE_BOUNCES | physics::FEATURE_PERIODIC | reads_gravity});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
-        {{constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | reads_gravity});
+        {{constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | physics::FEATURE_PERIODIC | reads_gravity});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
-                                       physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | reads_gravity;
+                                       physics::FEATURE_SURFACES | physics::FEATURE_BLOCKS | physics::FEATURE_PERIODIC | reads_gravity;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
-        {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
+        {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}, physics::FEATURE_PERIODIC});
     all.push_back({"prepare_cohesion", DispatchDomain::contacts, prepare_cohesion,
         {{counts}, {contacts, A::contacts, 1}, {properties, A::bodies}, {surfaces}, {contact_slots, A::contacts}, {slot_sides}, {slot_ends}, {impulses}},
         {{attractions, A::contacts}}});
@@ -203,7 +205,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_GHOSTS});
     all.push_back({"pull_bonds", DispatchDomain::bonds, pull_bonds,
         {{counts}, {bonds, A::bonds}, {bond_states, A::bonds}, {poses, A::bonds}, {velocities, A::bonds}, {masses, A::bonds}, {properties, A::bonds, 1}},
-        {some_only({bond_states}), {bond_changes, A::bond_changes}}});
+        {some_only({bond_states}), {bond_changes, A::bond_changes}}, physics::FEATURE_PERIODIC});
     all.push_back({"take_bonds", DispatchDomain::bodies, take_bonds,
         {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {ids}, {bond_ends, A::bodies}, {bond_changes, A::bond_changes}, {velocities, A::movers}},
         {{velocities, A::movers}, some_only({sleep_states})}, physics::FEATURE_REORDERED});
@@ -214,7 +216,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots},
          {joint_equations, A::joints}},
-        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
+        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}, physics::FEATURE_PERIODIC});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, some_only({bounds}), unfinished({impact_debts})}, physics::FEATURE_GHOSTS});
@@ -225,7 +227,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends},
          {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
-        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
+        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}, physics::FEATURE_PERIODIC});
     all.push_back({"show_quiet_steps", DispatchDomain::solver_contacts, show_quiet_steps,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {velocities, A::movers}, {properties}, {sleep_states}},
         {in_parts({neighbours_quiet})}, physics::FEATURE_SURFACES});
@@ -240,6 +242,9 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {properties, A::bodies, 1}, {gravities}, {ids}, {sleep_states}},
         {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
+    all.push_back({"enter_cell", DispatchDomain::bodies, enter_cell,
+        {{counts}, {properties, A::bodies, 1}, {poses, A::bodies}, {velocities, A::bodies}},
+        {{poses, A::bodies}, {velocities, A::bodies}}});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
         {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
@@ -263,7 +268,7 @@ std::vector<StageDeclaration> declare() {
     declare_solver(all);
     all.push_back({"find_impacts", DispatchDomain::ccd_pairs, find_impacts,
         {{counts}, {pairs, A::ccd_pairs}, {bounds, A::ccd_bodies, 1}, {properties}, {parts}, {poses}, {point_counts}},
-        {{bounds}}});
+        {{bounds}}, physics::FEATURE_PERIODIC});
     declare_convex(all);
     all.push_back({"share_stops", DispatchDomain::joint_blocks, share_stops,
         {{counts}, {joint_blocks, A::ccd_bodies}, {joints}, {block_bodies, A::ccd_bodies, 1}, {bounds, A::ccd_bodies, 1}},

@@ -99,6 +99,8 @@ void require_alike(const Scene& one, const Scene& varied, std::size_t copy) {
             refuse("a body " + std::to_string(i) + " that is a fragment of another body");
     }
     if (!equal(one.fields, varied.fields)) refuse("wind, water or attractors of its own");
+    const PeriodicCell &cell = one.periodic, &other = varied.periodic;
+    if (cell.size != other.size || cell.centre != other.centre || cell.rate != other.rate) refuse("a periodic cell of its own");
 }
 
 }  // namespace

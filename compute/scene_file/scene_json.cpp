@@ -163,6 +163,7 @@ void read_around(const json& rest, SceneDocument& document) {
     read_field(rest, root, schema::field_of(&Scene::exclusions), scene, named);
     read_field(rest, root, schema::field_of(&Scene::bonds), scene, named);
     read_field(rest, root, schema::field_of(&Scene::fields), scene, {});
+    read_field(rest, root, schema::field_of(&Scene::periodic), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
 }

@@ -71,6 +71,7 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
         text << ",\n";
     };
     write_one("fields", scene.fields, Fields{});
+    write_one("periodic", scene.periodic, PeriodicCell{});
     write_one("settings", shown.settings, std::optional<Settings>());
     write_one("duration", shown.duration, 0.0f);
     if (viewpoint) write_camera(text, *viewpoint);
@@ -102,6 +103,7 @@ std::uint64_t hash_with(const Scene& scene, const std::function<void(const TakeB
     for (const Vehicle& vehicle : scene.vehicles) add(text_of_fields(vehicle));
     for (const Bond& bond : scene.bonds) add(text_of_fields(bond));
     if (!is_default(scene.fields, Fields{})) add(text_of_fields(scene.fields));
+    if (!is_default(scene.periodic, PeriodicCell{})) add(text_of_fields(scene.periodic));
     return XXH64_digest(hash.get());
 }
 

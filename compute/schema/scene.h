@@ -60,12 +60,20 @@ inline constexpr auto table<Fields> = table_of("fields", "Fields, which act on a
                                                      "Distance within which their pull no longer grows"));
 
 template <>
+inline constexpr auto table<PeriodicCell> = table_of(
+    "periodic", "A periodic cell: what leaves it through one side comes back through the opposite one",
+    field("size", &PeriodicCell::size, between(0, 1e5), "m", "Along x, y and z; 0: not periodic along that axis").required(),
+    field("centre", &PeriodicCell::centre, within(1e6), "m", "Its middle"),
+    field("rate", &PeriodicCell::rate, within(10), "1/s", "At which it stretches about its middle, along x, y and z"));
+
+template <>
 inline constexpr auto table<Scene> = table_of(
     "scene", "Bodies, joints and vehicles",  //
     field("gravity", &Scene::gravity, within(1e4), "m/s^2", "Acceleration of free fall").written(),
     field("bodies", &Scene::bodies, "The bodies; joints and vehicles refer to them by index, from 0, or name").required(),
     field("joints", &Scene::joints, "The joints"), field("vehicles", &Scene::vehicles, "The vehicles"),
     field("exclusions", &Scene::exclusions, "Pairs of bodies that never collide"),
-    field("fields", &Scene::fields, "Wind, water, attractors"), field("bond_pairs", &Scene::bonds, "Bonds of two bodies each"));
+    field("fields", &Scene::fields, "Wind, water, attractors"), field("periodic", &Scene::periodic, "A periodic cell"),
+    field("bond_pairs", &Scene::bonds, "Bonds of two bodies each"));
 
 }  // namespace scree::schema

@@ -26,6 +26,7 @@ struct SceneFeatures {
     bool blocks = false;     // there are compounds or meshes: pairs of bodies in several contacts
     bool ghosts = false;     // rows of other ranks are marked (State::marks_foreign)
     bool bonds = false;      // there are bonds between bodies
+    bool periodic = false;   // there is a periodic cell
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -48,10 +49,11 @@ struct SceneFeatures {
                 .gravities = true,
                 .blocks = true,
                 .ghosts = true,
-                .bonds = true};
+                .bonds = true,
+                .periodic = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 22 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 23 * sizeof(bool));  // everything() names all
 
 }  // namespace scree

@@ -147,6 +147,7 @@ SceneFeatures State::features() const {
     found.gravities = !gravities.empty();
     found.ghosts = marks_foreign;
     found.bonds = fixed().bonds != 0;
+    found.periodic = physics::is_periodic(fixed());
     return found;
 }
 

@@ -21,6 +21,7 @@
 #include "compute/tables/table_vectors.h"
 #include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/base/copies.h"
+#include "shaders/physics/body/periodic_cell.h"
 
 namespace scree {
 
@@ -89,6 +90,7 @@ struct State : TableVectors {
     std::size_t live(BufferLength length) const;
     SceneFeatures features() const;
     bool has_joints() const;
+    bool is_periodic() const { return physics::is_periodic(fixed()); }
     // Whether steps change motions: bodies break, or are put into quarantine.
     bool changes_motions() const { return has_fractures() || counted().quarantined > 0; }
     // Whether some body is breakable.

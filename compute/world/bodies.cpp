@@ -104,6 +104,7 @@ void World::Impl::begin_impacts(const SceneFeatures& before) {
 // Each body with its fragments. Bodies without any are checked together, and share hulls.
 std::vector<std::vector<Body>> World::Impl::checked_families(std::span<const Body> bodies) const {
     Scene together{scene.gravity, {}, {}};
+    together.periodic = scene.periodic;
     for (const Body& body : bodies) together.bodies.push_back(on_its_own(body));
     std::vector<std::vector<Body>> families;
     if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.fracture.has_value(); })) {

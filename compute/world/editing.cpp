@@ -1,6 +1,7 @@
 // World: editing while it runs: grips, explosions, settings, new bodies.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 #include "compute/compile/scene_compiler.h"
 #include "compute/compile/state_editor.h"
 #include "compute/scene/shape_geometry.h"
+#include "compute/scene/validation/periodic_validation.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -134,6 +136,46 @@ void World::set_fields(const Fields& fields) {
     wake_all();
 }
 
+void World::set_cell_rate(vec3 rate) {
+    Impl& in = whole();
+    Scene changed;
+    changed.periodic = in.scene.periodic;
+    changed.periodic.rate = rate;
+    if (!in.scene.joints.empty()) changed.joints.resize(1);  // what the check asks for
+    check_periodic_cell(changed);
+    in.scene.periodic.rate = rate;
+    set_period(in.state.fixed(), in.scene.periodic);
+    in.retune(in.settings);
+    wake_all();
+}
+
+void World::Impl::require_room_in_cell() const {
+    const physics::Parameters& p = state.fixed();
+    if (!is_stretching(p)) return;
+    float widest = 0;
+    for (std::uint32_t row = 0; row < p.first_part; ++row) {
+        const physics::BodyProperties& body = state.properties[row];
+        if (body.motion == physics::MOTION_DYNAMIC) widest = std::max(widest, physics::bounding_radius(body));
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (!(p.cell_rate[k] < 0) || p.period[k] >= 4 * widest) continue;
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "the periodic cell has become %.4g m wide along %c, less than four times the %.4g m that a "
+                      "body reaches from its centre; end its rate",
+                      static_cast<double>(p.period[k]), "xyz"[k], static_cast<double>(widest));
+        throw std::domain_error(text);
+    }
+}
+
+void World::Impl::stretch_cell() {
+    physics::Parameters& p = state.fixed();
+    if (!is_stretching(p)) return;
+    PeriodicCell& cell = scene.periodic;
+    cell.size = cell.size + cell.size * p.cell_rate * p.dt;
+    set_period(p, cell);
+}
+
 void World::set_gravity(vec3 gravity) {
     whole().scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
     if (!whole().state.gravities.empty()) whole().set_gravities({});
@@ -163,7 +205,8 @@ void World::set_substeps(int substeps) {
 
 void World::set_sleeping(bool allowed) {
     whole().settings.sleeping = allowed;
-    whole().state.fixed().sleep_steps = sleep_steps_of(whole().settings);
+    physics::Parameters& p = whole().state.fixed();
+    p.sleep_steps = tuned(p, whole().scene.gravity, whole().settings).sleep_steps;
 }
 
 }  // namespace scree

@@ -226,7 +226,7 @@ void World::Impl::apply_joint_force(const JointForce& one) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
     const physics::Pose a = pose(record.a), b = pose(record.b);
-    const physics::JointConfiguration at = configuration_of(record, a, b);
+    const physics::JointConfiguration at = configuration_of(record, a, b, state.fixed());
     const std::size_t k = axes_of_kind(scene.joints[one.joint].kind).in_record(static_cast<std::size_t>(one.axis));
     vec3 axis = k % 3 == 0 ? at.x : (k % 3 == 1 ? at.y : at.z);
     const bool radial = (record.flags & physics::JOINT_RADIAL) != 0u && k == 0;
@@ -282,6 +282,8 @@ void World::Impl::count_joints() {
 // Messages name them by their place among these.
 void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
     if (state.changes_motions()) bring(body_ranges);
+    if (is_stretching(state.fixed()))
+        throw SceneError("/joints/0", "the periodic cell stretches (World::set_cell_rate), which none with joints can");
     for (std::size_t i = 0; i < joints.size(); ++i) {
         Joint& joint = scene.joints[joints[i]];
         check_joint(scene, joint, i);

@@ -73,7 +73,7 @@ void ShareStart::keep_still(Body body, std::uint32_t id) {
 bool ShareStart::survey() {
     const Scene& whole = from_.scene;
     if (!whole.joints.empty() || !whole.vehicles.empty() || !whole.exclusions.empty() || !whole.bonds.empty() ||
-        whole.fields.any())
+        whole.fields.any() || whole.periodic.any())
         return false;
     state_.properties.clear();  // tables of no bodies have a record all the same
     state_.hulls.clear();

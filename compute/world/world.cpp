@@ -61,6 +61,9 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
+    if (ranks && scene.periodic.any())
+        throw std::invalid_argument(
+            "a scene with a periodic cell runs on one rank: leave out \"periodic\", or run it without MPI");
     count_joints();
     if (state.has_copies()) keep_start();
     if (!s.gravities.empty()) {
@@ -171,6 +174,7 @@ void World::Impl::tell_timeline(Timeline::Time begin, std::uint64_t steps_before
 
 void World::Impl::step() {
     if (broken) throw std::logic_error("a previous step ran out of memory; the world can be read but not stepped");
+    require_room_in_cell();
     broken = true;
     const auto begin = Timeline::Clock::now();
     const std::uint64_t steps_before = steps;
@@ -195,6 +199,7 @@ void World::Impl::step() {
     state.fixed().removed = 0;
     release_indices();
     ++steps;
+    stretch_cell();
     note_stillness();
     if (shared && state.counted().quarantined > 0) make_whole();
     if (watched) {
@@ -208,6 +213,7 @@ void World::Impl::step() {
 
 int World::Impl::steps_alone(int count) {
     if (std::any_of(grips.begin(), grips.end(), [](const auto& grip) { return grip.has_value(); })) return 0;
+    if (is_stretching(state.fixed())) return 0;  // each step has a cell of its own
     broken = true;
     share_out_when_due();
     state.fixed().actions = 0;

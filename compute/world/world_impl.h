@@ -209,6 +209,8 @@ struct World::Impl {
     Held& held(std::size_t grip);  // throws std::out_of_range
     void take_up_grips();          // writes the grips to the parameters of the next step
     void retune(const Settings& changed);
+    void require_room_in_cell() const;  // throws std::domain_error
+    void stretch_cell();                // after a step
 
     // bodies.cpp
     bool is_gone(std::size_t body) const { return body < gone.size() && gone[body]; }

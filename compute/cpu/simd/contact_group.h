@@ -87,6 +87,15 @@ SCREE_INLINE void give_back(const WideTables& tables, const Kept& group, std::si
     if (!plain && tables.impacts != nullptr) scatter(tables.impacts, contacts, contact_impact_of(group.impulse));
 }
 
+SCREE_INLINE VelocityPair velocities_of(const WideTables& tables, const Constraint& c) {
+    VelocityPair v{gather<Velocity>(tables.velocities, Indices(c.a)), gather<Velocity>(tables.velocities, Indices(c.b))};
+    if (!tables.periodic) return v;
+    Parameters p;
+    broadcast(tables.parameters, p);
+    v.b = at_image(v.b, image_in(c, p));
+    return v;
+}
+
 // A group of contacts, one per lane, with solver data and bodies.
 template <bool plain>
 struct Group {
@@ -104,7 +113,7 @@ struct Group {
           impulse(narrowed<plain>(record.impulse)),
           a(c.a),
           b(c.b),
-          before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
+          before{velocities_of(tables, c)} {}
 
     SCREE_INLINE ImpactContext around_impact(const WideTables& tables, const Parameters& p) const {
         if (none(c.restitution > 0.0f)) return no_impact_context();

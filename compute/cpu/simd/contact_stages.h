@@ -95,7 +95,8 @@ void warm_start_and_prepare(const WideTables& tables, std::size_t first, std::si
             constraint_between(contact, ta, body_of(contact.a, ta), from.slot_a, tb, body_of(contact.b, tb), from.slot_b, p);
         const Indices a(c.a), b(c.b);
         c = with_joints(c, joints_of(tables, a), joints_of(tables, b));
-        const VelocityPair now{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)};
+        if (tables.periodic) c = meeting_image(c, image_met(tables, ta, a, tb, b, p));
+        const VelocityPair now = velocities_of(tables, c);
         const Bool live = living(first, last);
         const Indices written = contacts.only(live);
         if (tables.constraints != nullptr) scatter(tables.constraints, written, c);
@@ -131,6 +132,7 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             const Constraint was = prepared.c;
             Constraint c = constraint_between(contact, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
             c = with_joints(c, joints_of(tables, Indices(was.a)), joints_of(tables, Indices(was.b)));
+            if (tables.periodic) c = meeting_image(c, image_met(tables, ta, Indices(was.a), tb, Indices(was.b), p));
             prepared.c = none(!waits) ? c : choose_record(waits, c, was);
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
         }

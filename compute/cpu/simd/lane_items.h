@@ -51,6 +51,12 @@ SCREE_INLINE Uint body_of(Uint row, const BodyProperties& properties) {
     return choose(is_part(properties), properties.owner, row);
 }
 
+// The image of B that A meets, of two rows whose bodies are `a` and `b`.
+SCREE_INLINE Image image_met(const WideTables& tables, const BodyProperties& ta, const Indices& a, const BodyProperties& tb,
+                             const Indices& b, const Parameters& p) {
+    return image_of_b(ta, tb, gather<Pose>(tables.poses, b).position - gather<Pose>(tables.poses, a).position, p);
+}
+
 // Of each lane the record of one or the other.
 template <typename Record>
 SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {

@@ -37,15 +37,24 @@ SCREE_INLINE void prefetch_pairs(const WideTables& tables, std::size_t first, st
 }
 
 void keep(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    if (tables.periodic) broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         prefetch_pairs(tables, first + lanes, last);
         const PairGroup group(tables, first, last);
         const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
         const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
         const Indices a(body_of(group.pair.a, ta)), b(body_of(group.pair.b, tb));
-        const Pose pose_a = gather<Pose>(tables.poses, a), pose_b = gather<Pose>(tables.poses, b);
+        const Pose pose_a = gather<Pose>(tables.poses, a);
+        Pose pose_b = gather<Pose>(tables.poses, b);
+        Velocity velocity_b = gather<Velocity>(tables.velocities, b);
+        if (tables.periodic) {
+            const Image image = image_of_b(ta, tb, pose_b.position - pose_a.position, p);
+            pose_b = at_image(pose_b, image);
+            velocity_b = at_image(velocity_b, image);
+        }
         const Bool keeps = group.live && is_persistent(group.contact, ta, pose_a, gather<Velocity>(tables.velocities, a), tb,
-                                                       pose_b, gather<Velocity>(tables.velocities, b));
+                                                       pose_b, velocity_b);
         if (none(keeps)) continue;
         scatter(tables.manifolds, group.pairs.only(keeps), persistent_manifold(group.contact, pose_a, pose_b));
         constexpr std::size_t words = sizeof(Pair) / sizeof(Words), at = offsetof(Pair, pair_type) / sizeof(Words);
@@ -64,7 +73,8 @@ struct TouchingGroup {
     std::size_t count;
     Pair pair;
     BodyProperties ta, tb;
-    Pose pose_a, pose_b;
+    Pose pose_a, pose_b;  // of B as A meets it
+    Image image;          // of B, in scenes with a periodic cell
 
     SCREE_INLINE TouchingGroup(const WideTables& tables, std::size_t first, std::size_t last)
         : pairs(listed(tables.items, first, last)),
@@ -74,11 +84,19 @@ struct TouchingGroup {
           ta(gather<BodyProperties>(tables.properties, Indices(pair.a))),
           tb(gather<BodyProperties>(tables.properties, Indices(pair.b))),
           pose_a(gather<Pose>(tables.poses, Indices(pair.a))),
-          pose_b(gather<Pose>(tables.poses, Indices(pair.b))) {}
+          pose_b(gather<Pose>(tables.poses, Indices(pair.b))) {
+        if (!tables.periodic) return;
+        Parameters p;
+        broadcast(tables.parameters, p);
+        image = image_met(tables, ta, Indices(body_of(pair.a, ta)), tb, Indices(body_of(pair.b, tb)), p);
+        pose_b = at_image(pose_b, image);
+    }
 
     SCREE_INLINE Margin margin(const WideTables& tables, const Parameters& p) const {
-        return margin_of(ta, gather<Velocity>(tables.velocities, Indices(pair.a)), tb,
-                         gather<Velocity>(tables.velocities, Indices(pair.b)), pose_b.position - pose_a.position, p);
+        Velocity velocity_b = gather<Velocity>(tables.velocities, Indices(pair.b));
+        if (tables.periodic) velocity_b = at_image(velocity_b, image);
+        return margin_of(ta, gather<Velocity>(tables.velocities, Indices(pair.a)), tb, velocity_b,
+                         pose_b.position - pose_a.position, p);
     }
     SCREE_INLINE void keep(const WideTables& tables, const ManifoldBuffer& touch) const {
         scatter(tables.manifolds, pairs.only(live), touch.manifold);

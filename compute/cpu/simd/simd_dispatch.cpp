@@ -33,6 +33,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.body_groups = state.scratch.lane_bodies.empty() ? nullptr : state.scratch.lane_bodies.front().words;
     tables.prefetches = state.counted().solver_contacts > most_cached_contacts;
     tables.watched = state.is_watched;
+    tables.periodic = state.is_periodic();
     const SceneFeatures has = state.features();
     const bool usual = !has.bounces && !has.tyres && !has.surfaces;
     tables.plain = usual && !has.rolls;

@@ -9,6 +9,7 @@
 
 #include "shaders/physics/base/contact_impulse.h"
 #include "shaders/physics/body/motion.h"
+#include "shaders/physics/body/periodic_cell.h"
 #include "shaders/physics/collide/collide_box_box.h"
 #include "shaders/physics/collide/collide_box_plane.h"
 #include "shaders/physics/collide/collide_capsule_box.h"

@@ -25,6 +25,7 @@ struct WideTables : TableWords {
     bool sums_impacts = true;              // BodyForces.impact_weight is written: some body may be in an impact, or `watched`
     bool warm_starts = false;              // preparation warm-starts contacts from the last step, and is that of all contacts
     bool prefetches = false;  // contacts are so many that `groups`, and it is assumed bodies, do not fit into the second cache
+    bool periodic = false;    // there is a periodic cell
     bool first = false;       // the first substep of a step
     bool last = false;        // the last one
 };

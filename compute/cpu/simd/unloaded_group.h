@@ -29,9 +29,6 @@ SCREE_INLINE bool is_unloaded(Impulse impulse, const VelocityPair& share, Float 
     return none(Uint(any_bits(impulse) | deltas) != Uint(0u));
 }
 
-SCREE_INLINE VelocityPair velocities_of(const WideTables& tables, const Constraint& c) {
-    return {gather<Velocity>(tables.velocities, Indices(c.a)), gather<Velocity>(tables.velocities, Indices(c.b))};
-}
 SCREE_INLINE Bool are_sound(const VelocityPair& v) {
     return is_sound(v.a) && is_sound(v.b);
 }

@@ -10,6 +10,7 @@
 #include "compute/scene/validation/body_validation.h"
 #include "compute/scene/validation/bond_validation.h"
 #include "compute/scene/validation/joint_validation.h"
+#include "compute/scene/validation/periodic_validation.h"
 #include "compute/scene/validation/shape_validation.h"
 #include "compute/scene/validation/vehicle_validation.h"
 #include "compute/schema/check.h"
@@ -131,6 +132,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
     check_vehicles(scene);
     check_exclusions(scene);
     check_bonds(scene);
+    check_periodic_cell(scene);
     add_pieces(scene);
     return scene;
 }

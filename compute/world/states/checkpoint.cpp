@@ -399,6 +399,7 @@ void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, st
     const TableLengths before = TableLengths::of(state);
     const int substeps_before = state.substeps;
     const TableRanges changed = tables.restore(state);
+    scene.periodic = periodic_cell(state.fixed());
     if (made) find_shapes_again();
     find_spare_hulls();
     if (which == SteppedTables::all || state.substeps != substeps_before || TableLengths::of(state) != before) runner->adapt();

@@ -72,6 +72,14 @@ private:
                            finite(p_.wind) && finite(p_.water_normal) && finite(p_.water_velocity) && p_.cell > 0 &&
                            p_.inverse_cell == 1 / p_.cell;
         if (!sound) refuse("its grid or its fields have numbers that are not finite");
+        const auto is_period = [&](int k) {
+            return (p_.period[k] == 0 && p_.half_period[k] == 1e30f && p_.inverse_period[k] == 0 && p_.cell_rate[k] == 0) ||
+                   (p_.period[k] >= 0.005f && p_.half_period[k] == 0.5f * p_.period[k] &&
+                    p_.inverse_period[k] == 1 / p_.period[k]);
+        };
+        if (!finite(p_.period) || !finite(p_.cell_centre) || !finite(p_.cell_rate) || !is_period(0) || !is_period(1) ||
+            !is_period(2))
+            refuse("its periodic cell has sizes or rates that no scene has");
         if ((p_.air_density != 0 || p_.water_density != 0) && saved_.immersions.size() < saved_.body_count)
             refuse("it says of " + std::to_string(saved_.immersions.size()) + " bodies alone how they meet air and water");
     }

@@ -116,6 +116,9 @@ CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not r
 CONSTANT uint CONSTRAINT_FOLLOWS = 64u;     // its block has a contact before it (contact_block.h)
 CONSTANT uint CONSTRAINT_LEADS = 128u;      // its block has a contact behind it
 CONSTANT uint CONSTRAINT_ON_JOINTS = 256u;  // it moves a body that is on joints
+// In a periodic cell, B is met at its image one period further along x, or one back; likewise along y and z, each 2 bits on.
+CONSTANT uint CONSTRAINT_IMAGE_ON = 512u;
+CONSTANT uint CONSTRAINT_IMAGE_BACK = 1024u;
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts

@@ -56,8 +56,19 @@ struct Parameters {  // uniform over a step
     float attractor_radius;  // m
     uint attractors;         // number of them
     uint bodies_of_copy;     // copy w has the bodies with ids from w * bodies_of_copy on; 0: a scene without copies
-    vec4 attractor[4];       // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
-    Grip grips[4];           // MOST_GRIPS
+    // Periodic cell (periodic_cell.h); of an axis along which there is none 0, but half_period 1e30.
+    vec3 period;  // m
+    uint pad1;
+    vec3 half_period;  // m
+    uint pad2;
+    vec3 inverse_period;  // 1/m
+    uint pad3;
+    vec3 cell_centre;  // m
+    uint pad4;
+    vec3 cell_rate;  // at which the cell stretches, 1/s
+    uint pad5;
+    vec4 attractor[4];  // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
+    Grip grips[4];      // MOST_GRIPS
     // Where each table of words or quads begins in the buffer that it shares, in words or quads: in their order in
     // shaders/stages/lib/tables.h. Shaders call them <table>_offset, which the build generates.
     uvec4 table_offsets[12];
@@ -78,6 +89,7 @@ CONSTANT uint FEATURE_COPIES = 1024u;     // several copies of a scene
 CONSTANT uint FEATURE_GRAVITIES = 2048u;  // whose gravity differs
 CONSTANT uint FEATURE_BLOCKS = 4096u;     // compounds or meshes: pairs of bodies in several contacts
 CONSTANT uint FEATURE_GHOSTS = 8192u;     // rows of other ranks are marked by ROW_FOREIGN
+CONSTANT uint FEATURE_PERIODIC = 16384u;  // a periodic cell
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

@@ -13,6 +13,7 @@
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/body/compound.h"
+#include "shaders/physics/body/periodic_cell.h"
 #include "shaders/physics/body/sweep.h"
 #include "shaders/physics/collide/contact_margin.h"
 #include "shaders/physics/collide/manifold.h"
@@ -131,6 +132,43 @@ LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters para
     range.first = cell_at(lower - reach, level, parameters.inverse_cell);
     range.last = cell_at(upper + reach, level, parameters.inverse_cell);
     return range;
+}
+
+// The images of a body in a periodic cell whose bounds may overlap those of bodies of that level: periods along each axis. Bodies
+// are within the cell, their bounds reach out of it by a cell of the grid at most, and parts by half of half the period more
+// (compute/scene/validation/validation.cpp).
+struct ImageRange {
+    ivec3 first;
+    ivec3 last;
+};
+LAW ImageRange images_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
+    vec3 reach = vec3(parameters.cell * power_of_two(int(level)));
+    if (parameters.first_part < parameters.bodies) reach = reach + parameters.half_period * 0.5f;
+    vec3 low = (parameters.cell_centre - parameters.half_period) + reach,
+         high = (parameters.cell_centre + parameters.half_period) - reach;
+    ImageRange range;
+    range.first = ivec3(upper.x >= high.x ? -1 : 0, upper.y >= high.y ? -1 : 0, upper.z >= high.z ? -1 : 0);
+    range.last = ivec3(lower.x <= low.x ? 1 : 0, lower.y <= low.y ? 1 : 0, lower.z <= low.z ? 1 : 0);
+    return range;
+}
+LAW ivec3 next_image(ivec3 at, ImageRange images) {
+    ++at.x;
+    if (at.x <= images.last.x) return at;
+    at.x = images.first.x;
+    ++at.y;
+    if (at.y <= images.last.y) return at;
+    at.y = images.first.y;
+    ++at.z;
+    return at;
+}
+LAW vec3 middle_of(vec3 lower, vec3 upper) {
+    return (lower + upper) * 0.5f;
+}
+// Whether the image of a body at those periods is its nearest to another, whose bounds' middle is `apart` from the body's own: of
+// wide bodies several images may overlap, of which one counts.
+LAW bool is_nearest_image(vec3 periods, vec3 apart, Parameters parameters) {
+    vec3 nearest = -periods_to_nearest(apart, parameters);
+    return nearest.x == periods.x && nearest.y == periods.y && nearest.z == periods.z;
 }
 
 // Bounds of an absent body: in no bucket.

@@ -8,6 +8,7 @@
 #ifndef SCREE_PHYSICS_JOINT_H
 #define SCREE_PHYSICS_JOINT_H
 
+#include "shaders/physics/body/periodic_cell.h"
 #include "shaders/physics/constraint/wrench.h"
 
 LAWS_BEGIN
@@ -88,6 +89,12 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     at.x_b = x_b;
     at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
     at.turned = at.twist;
+    return at;
+}
+
+// In a periodic cell, where a joint holds the images whose anchors are nearest to each other.
+LAW JointConfiguration at_nearest_image(JointConfiguration at, Parameters parameters) {
+    at.gap = at.gap + parameters.period * periods_to_nearest(at.gap, parameters);
     return at;
 }
 

@@ -4,7 +4,7 @@
 
 #include "shaders/physics/body/quarantine.h"
 #include "shaders/physics/bond/bond.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/images.glsl"
 
 void write_change(uint place, Velocity change, float holds) {
     uint first = BOND_WORDS * place;
@@ -24,7 +24,13 @@ void main() {
         VelocityPair v;
         v.a = READ(velocities, bond.a);
         v.b = READ(velocities, bond.b);
-        BondPull found = pull_of_bond(bond, READ(poses, bond.a), READ(poses, bond.b), v, whole_mass(READ(masses, bond.a)),
+        Pose pose_b = READ(poses, bond.b);
+        if (PERIODIC) {
+            Image image = image_met(READ(properties, bond.a), bond.a, READ(properties, bond.b), bond.b);
+            pose_b = at_image(pose_b, image);
+            v.b = at_image(v.b, image);
+        }
+        BondPull found = pull_of_bond(bond, READ(poses, bond.a), pose_b, v, whole_mass(READ(masses, bond.a)),
                                       whole_mass(READ(masses, bond.b)), PARAMETERS);
         if (is_out_of_play(READ(properties, bond.a).motion) || is_out_of_play(READ(properties, bond.b).motion) ||
             bond_breaks(found, bond)) {

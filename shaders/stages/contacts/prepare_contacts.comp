@@ -6,6 +6,7 @@
 #include "shaders/stages/lib/contact_blocks.glsl"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 
 Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {
@@ -19,11 +20,12 @@ Surface surface_on(BodyProperties row) {
 }
 
 // The constraint of a contact that some body moves.
-Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Parameters own) {
+Constraint prepared(uint i, Contact contact, uint of_a, uint of_b, VelocityPair now, Image image, Parameters own) {
     BodyProperties ta = READ(properties, contact.a), tb = READ(properties, contact.b);
     uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
     Constraint constraint = constraint_between(contact, ta, of_a, slot_a, tb, of_b, slot_b, own);
     constraint = with_joints(constraint, READ(properties, of_a).joints, READ(properties, of_b).joints);
+    if (PERIODIC) constraint = meeting_image(constraint, image);
     if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
         constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
                                    READ(poses, of_b).orientation, PARAMETERS);
@@ -54,13 +56,18 @@ void main() {
     VelocityPair now;
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
+    Image image = image_at(vec3(0.0f), PARAMETERS);
+    if (PERIODIC) {
+        image = image_met(READ(properties, contact.a), of_a, READ(properties, contact.b), of_b);
+        now.b = at_image(now.b, image);
+    }
     BodyMass mass_a = READ(masses, of_a), mass_b = READ(masses, of_b);
     float of_block = 0.0f;
     uint before = 0u, here = i + 1u, place = 0u;
     do {
         uint k = here - 1u;
         if (place != 0u) contact = READ(contacts, k);
-        Constraint constraint = prepared(k, contact, of_a, of_b, now, own);
+        Constraint constraint = prepared(k, contact, of_a, of_b, now, image, own);
         uint next = next_in_block(k, place, shares, of_a, of_b);
         constraint = linked(constraint, before, next);
         write_constraints(k, constraint, EVERY_MEMBER);

@@ -5,6 +5,7 @@
 #include "shaders/physics/contact/contact_preparation.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 
 void main() {
@@ -22,10 +23,17 @@ void main() {
     Contact before = READ(contacts_before, pair.previous);
     Impulse was = impulse_before(pair.previous);
     BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
+    Pose pose_b = READ(poses, of_b);
+    Velocity velocity_b = READ(velocities, of_b);
+    if (PERIODIC) {
+        Image image = image_met(ta, of_a, tb, of_b);
+        pose_b = at_image(pose_b, image);
+        velocity_b = at_image(velocity_b, image);
+    }
     if (pair.pair_type == PAIR_INACTIVE)
         prepared = carried_forward(before, was, resting_manifold(before, was));
     else if (pair.pair_type == PAIR_PERSISTENT)
-        prepared = carried_forward(before, was, persistent_manifold(before, READ(poses, of_a), READ(poses, of_b)));
+        prepared = carried_forward(before, was, persistent_manifold(before, READ(poses, of_a), pose_b));
     else
         prepared = warm_started(prepared, before, was, ta, tb);
     if (!idle || pair.pair_type != PAIR_INACTIVE) prepared.contact.load = load_since(before, was, ta, slot_a, tb, slot_b);
@@ -34,7 +42,7 @@ void main() {
         Parameters own = parameters_of(of_a);
         VelocityPair now;
         now.a = READ(velocities, of_a);
-        now.b = READ(velocities, of_b);
+        now.b = velocity_b;
         prepared.impulse = settled_impact(prepared.impulse, constraint_of(prepared.contact, ta, tb, slot_a, slot_b, own), was,
                                           constraint_of(before, ta, tb, slot_a, slot_b, own), now);
     }

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/continuous/time_of_impact.h"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
@@ -30,8 +31,15 @@ void main() {
     if (!clamps_a && !clamps_b) return;
     float reach_a = row_a == a ? reach_of(ta) : reach_of(READ(properties, row_a)) + length3(part_in(row_a).position);
     float reach_b = row_b == b ? reach_of(tb) : reach_of(READ(properties, row_b)) + length3(part_in(row_b).position);
+    vec3 start_b = bounds.at[b].sweep.position;
+    Pose end_b = READ(poses, b);
+    if (PERIODIC) {
+        Image image = image_of_b(ta, tb, start_b - bounds.at[a].sweep.position, PARAMETERS);
+        start_b = start_b + image.shift;
+        end_b = end_of_sweep(at_image(end_b, image), image, PARAMETERS);
+    }
     Nearing near = nearing_of(way_of(reach_a, bounds.at[a].sweep.position, READ(poses, a).position, stop_a),
-                              way_of(reach_b, bounds.at[b].sweep.position, READ(poses, b).position, stop_b),
+                              way_of(reach_b, start_b, end_b.position, stop_b),
                               touch_of(READ(properties, row_a), READ(properties, row_b), PARAMETERS));
     // What this pair may lower.
     float bound = larger(clamps_a ? smaller(stop_a, uintBitsToFloat(bounds.at[a].sweep.stops[next])) : 0.0f,
@@ -39,7 +47,7 @@ void main() {
     if (passes(near) || near.first >= bound) return;
     bool joined = (!clamps_a || ta.joints != NONE) && (!clamps_b || tb.joints != NONE);
     MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);
-    MotionPath cb = path_of(tb, bounds.at[b].sweep.position, bounds.at[b].sweep.orientation, READ(poses, b), stop_b);
+    MotionPath cb = path_of(tb, start_b, bounds.at[b].sweep.orientation, end_b, stop_b);
     if (row_a != a) {
         ta = READ(properties, row_a);
         ca = path_of_part(ta, part_in(row_a), ca);

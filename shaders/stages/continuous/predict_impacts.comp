@@ -9,6 +9,7 @@
 #include "shaders/physics/continuous/time_of_impact.h"
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
@@ -20,6 +21,12 @@ void main() {
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
     BodyProperties whole_a = READ(properties, of_a), whole_b = READ(properties, of_b);
     Velocity motion_a = READ(velocities, of_a), motion_b = READ(velocities, of_b);
+    Pose pose_b = READ(poses, b);
+    if (PERIODIC) {
+        Image image = image_met(ta, of_a, tb, of_b);
+        pose_b = at_image(pose_b, image);
+        vb = at_image(vb, image);
+    }
     bool drives_a = drives(whole_a, motion_a, PARAMETERS), drives_b = drives(whole_b, motion_b, PARAMETERS);
     bool any_fast = will_be_fast(whole_a, motion_a, PARAMETERS) || will_be_fast(whole_b, motion_b, PARAMETERS);
     if (!any_fast && !drives_a && !drives_b) return;
@@ -28,7 +35,7 @@ void main() {
     uint previous = READ(pairs, i).previous;
     bool rebounds = BOUNCES && previous != NONE && rebounds_across(READ_GROUPED(impacts_before, previous));
     if (any_fast && !rebounds && !is_near(manifold, WORD(point_counts, i), ta, tb, PARAMETERS) &&
-        !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb,
+        !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, pose_b, vb,
                    READ(forces, of_b), PARAMETERS, Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;
         return;

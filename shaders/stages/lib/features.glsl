@@ -19,6 +19,7 @@ const bool COPIES = (FEATURES & FEATURE_COPIES) != 0u;
 const bool GRAVITIES = (FEATURES & FEATURE_GRAVITIES) != 0u;
 const bool BLOCKS = (FEATURES & FEATURE_BLOCKS) != 0u;
 const bool GHOSTS = (FEATURES & FEATURE_GHOSTS) != 0u;
+const bool PERIODIC = (FEATURES & FEATURE_PERIODIC) != 0u;
 
 // Whether another rank moves the body of a row.
 bool is_foreign(BodyProperties row) {

@@ -4,6 +4,7 @@
 
 #include "shaders/physics/joint/joint_block.h"
 #include "shaders/physics/sleep/sleep.h"
+#include "shaders/stages/lib/features.glsl"
 
 // Calls for each axis of a set, ascending. Drivers unroll loops over six, which took lavapipe a minute to compile.
 #define FOR_AXES(k, axes)                                                                           \
@@ -50,6 +51,7 @@ Mass lent_mass(uint member, bool after_contacts) {
 JointConfiguration configuration_of(uint joint) {
     JointConfiguration at = joint_configuration(joints.at[joint].anchor_a, joints.at[joint].frame_a, pose_of(joints.at[joint].a),
                                                 joints.at[joint].anchor_b, joints.at[joint].frame_b, pose_of(joints.at[joint].b));
+    if (PERIODIC) at = at_nearest_image(at, PARAMETERS);
     return turned_configuration(at, joints.at[joint].flags, joints.at[joint].twist, joints.at[joint].axes[3],
                                 joints.at[joint].axes[4], joints.at[joint].axes[5]);
 }

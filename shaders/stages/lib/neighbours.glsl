@@ -60,8 +60,13 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
         CellEntry entry = READ(cell_entries, next++);
         uint other = entry.body;
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
-        if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
+        if (!PERIODIC && !boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         BodyProperties theirs = READ(properties, other);
+        if (PERIODIC) {
+            vec3 apart = middle_of(entry.lower, entry.upper) - middle_of(around.lower, around.upper);
+            vec3 shift = image_of_b(own, theirs, apart, PARAMETERS).shift;
+            if (!boxes_overlap(around.lower, around.upper, entry.lower + shift, entry.upper + shift)) continue;
+        }
         if (!can_touch(own, theirs)) continue;
         bool near = true;
         if (theirs.shape == SHAPE_PLANE)
@@ -72,8 +77,9 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
     } while (next < last);
 }
 
-// Cells along x are consecutive buckets, which may wrap round the end of the grid's entries.
-void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level) {
+// Cells along x are consecutive buckets, which may wrap round the end of the grid's entries. `around`: of the body's image at
+// those periods; `middle`: of its own bounds.
+void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level, vec3 periods, vec3 middle) {
     uint key = COPIES ? level | (around.level & COPY_BITS) : level;
     uint low = bucket_of(from, key, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), key, PARAMETERS.buckets);
@@ -92,6 +98,7 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
         if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
+        if (PERIODIC && !is_nearest_image(periods, middle_of(entry.lower, entry.upper) - middle, PARAMETERS)) continue;
         if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(properties, entry.body).owner == own.owner)
             continue;
         if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
@@ -132,13 +139,27 @@ void look_around(uint body) {
     do {
         uint level = uint(findLSB(levels));
         levels &= levels - 1u;
-        CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
-        int z = range.first.z;
+        ImageRange images = ImageRange(ivec3(0), ivec3(0));
+        if (PERIODIC) images = images_in_reach(around.lower, around.upper, level, PARAMETERS);
+        ivec3 at = images.first;
         do {
-            int y = range.first.y;
-            do look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
-            while (++y <= range.last.y);
-        } while (++z <= range.last.z);
+            Bounds there = around;
+            vec3 periods = vec3(at);
+            if (PERIODIC) {
+                vec3 shift = image_at(periods, PARAMETERS).shift;
+                there.lower = there.lower + shift;
+                there.upper = there.upper + shift;
+                at = next_image(at, images);
+            }
+            CellRange range = cells_in_reach(there.lower, there.upper, level, PARAMETERS);
+            int z = range.first.z;
+            do {
+                int y = range.first.y;
+                do look_through_row(body, own, there, ivec3(range.first.x, y, z), range.last.x, level, periods,
+                                    middle_of(around.lower, around.upper));
+                while (++y <= range.last.y);
+            } while (++z <= range.last.z);
+        } while (PERIODIC && at.z <= images.last.z);
     } while (levels != 0u);
 }
 

@@ -3,6 +3,7 @@
 #define SCREE_STAGES_PASS_CONTACTS_GLSL
 
 #include "shaders/physics/base/passes.h"
+#include "shaders/physics/body/periodic_cell.h"
 #include "shaders/physics/contact/contact_pass.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
@@ -16,6 +17,7 @@ VelocityPair velocities_of(Constraint c) {
     VelocityPair v;
     v.a = READ(velocities, c.a);
     v.b = READ(velocities, c.b);
+    if (PERIODIC) v.b = at_image(v.b, image_in(c, PARAMETERS));
     return v;
 }
 void write_slots(Constraint c, VelocityPair share, float weight, float passed_on) {

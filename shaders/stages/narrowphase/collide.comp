@@ -55,6 +55,7 @@
 #endif
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/images.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[KIND];
@@ -64,6 +65,11 @@ void main() {
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
+    if (PERIODIC) {
+        Image image = image_met(ta, ta.owner, tb, tb.owner);
+        pb = at_image(pb, image);
+        vb = at_image(vb, image);
+    }
     Margin margin = margin_of(ta, va, tb, vb, pb.position - pa.position, parameters_of(ta.owner));
 #ifdef MAY_BE_SMOOTH
     float ahead = time_ahead(ta, va, tb, vb, PARAMETERS);

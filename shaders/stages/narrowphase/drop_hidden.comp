@@ -4,6 +4,7 @@
 
 #include "shaders/physics/collide/seam.h"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/shape_data.glsl"
 
 uint seams_of(uint row) {
@@ -19,6 +20,7 @@ void main() {
     if (seams_a == 0u && seams_b == 0u) return;
     BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
     Pose pa = READ(poses, pair.a), pb = READ(poses, pair.b);
+    if (PERIODIC) pb = at_image(pb, image_met(ta, ta.owner, tb, tb.owner));
     vec3 offset = pa.position - READ(poses, ta.owner).position;
     ManifoldBuffer touch;
     touch.manifold = FOUND_MANIFOLD(i);

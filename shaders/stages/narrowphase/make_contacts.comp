@@ -6,6 +6,7 @@
 #include "shaders/physics/contact/contact_preparation.h"
 #include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/ids.glsl"
+#include "shaders/stages/lib/images.glsl"
 
 void main() {
     uint i = thread();
@@ -14,11 +15,14 @@ void main() {
     if (!has_points(points)) return;
     uint place = READ_WORD(contact_starts, i);
     Pair pair = READ(pairs, i);
-    if (is_carried_forward(pair.pair_type))
+    if (is_carried_forward(pair.pair_type)) {
         WRITE(contacts, place, READ(contacts_before, pair.previous));
-    else
-        WRITE(contacts, place,
-              contact_of(pair, FOUND_MANIFOLD(i), points, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b))));
+    } else {
+        uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+        Pose pose_b = READ(poses, of_b);
+        if (PERIODIC) pose_b = at_image(pose_b, image_met(READ(properties, pair.a), of_a, READ(properties, pair.b), of_b));
+        WRITE(contacts, place, contact_of(pair, FOUND_MANIFOLD(i), points, READ(poses, of_a), pose_b));
+    }
     WORD(contact_pairs, place) = i;
     WORD(contact_slots, 2u * place) = NONE;
     WORD(contact_slots, 2u * place + 1u) = NONE;

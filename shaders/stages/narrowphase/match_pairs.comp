@@ -6,6 +6,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/contact/persistence.h"
 #include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 
 // Binary search: contacts of an owner are sorted by the other body's id.
@@ -51,9 +52,17 @@ void main() {
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
         if (pair.previous != NONE && has_weight(parameters_of(of_a)) &&
-            may_persist(pushes_before(pair.previous), ta.shape, tb.shape))
-            kept = is_persistent(READ(contacts_before, pair.previous), ta, READ(poses, of_a), READ(velocities, of_a), tb,
-                                 READ(poses, of_b), READ(velocities, of_b));
+            may_persist(pushes_before(pair.previous), ta.shape, tb.shape)) {
+            Pose pose_b = READ(poses, of_b);
+            Velocity velocity_b = READ(velocities, of_b);
+            if (PERIODIC) {
+                Image image = image_met(ta, of_a, tb, of_b);
+                pose_b = at_image(pose_b, image);
+                velocity_b = at_image(velocity_b, image);
+            }
+            kept = is_persistent(READ(contacts_before, pair.previous), ta, READ(poses, of_a), READ(velocities, of_a), tb, pose_b,
+                                 velocity_b);
+        }
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);
     }
     WRITE(pairs, place, pair);

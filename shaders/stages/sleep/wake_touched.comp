@@ -7,6 +7,7 @@
 #include "shaders/physics/sleep/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/found_manifolds.glsl"
+#include "shaders/stages/lib/images.glsl"
 #include "shaders/stages/lib/impulses.glsl"
 
 void raise(uint body, uint bits) {
@@ -20,10 +21,17 @@ void main() {
     Pair pair = READ(pairs, index);
     if (pair.pair_type == PAIR_INACTIVE) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach =
-        approach_of(FOUND_MANIFOLD(index), READ_WORD(point_counts, index),
-                    READ(poses, of_b).position - READ(poses, of_a).position, READ(velocities, of_a), READ(velocities, of_b),
-                    speculative_of(READ(properties, pair.a), READ(properties, pair.b), PARAMETERS), PARAMETERS);
+    BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
+    Pose pose_b = READ(poses, of_b);
+    Velocity velocity_b = READ(velocities, of_b);
+    if (PERIODIC) {
+        Image image = image_met(ta, of_a, tb, of_b);
+        pose_b = at_image(pose_b, image);
+        velocity_b = at_image(velocity_b, image);
+    }
+    float approach = approach_of(FOUND_MANIFOLD(index), READ_WORD(point_counts, index),
+                                 pose_b.position - READ(poses, of_a).position, READ(velocities, of_a), velocity_b,
+                                 speculative_of(ta, tb, PARAMETERS), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(WORD(sleep_states, of_a), PARAMETERS.sleep_steps),
          b_sleeps = has_slept(WORD(sleep_states, of_b), PARAMETERS.sleep_steps);
