@@ -8,7 +8,7 @@
 #include <string>
 
 #define SCREE_VERSION_MAJOR 0
-#define SCREE_VERSION_MINOR 15
+#define SCREE_VERSION_MINOR 16
 #define SCREE_VERSION_PATCH 0
 
 namespace scree {
@@ -16,7 +16,7 @@ namespace scree {
 // Of the headers.
 constexpr int version_major = SCREE_VERSION_MAJOR, version_minor = SCREE_VERSION_MINOR, version_patch = SCREE_VERSION_PATCH;
 
-std::string library_version();  // of the compiled library, "0.15.0"
+std::string library_version();  // of the compiled library, "0.16.0"
 
 // Whether the headers of the caller and the library that it is linked with are of one version.
 inline bool is_library_of_headers() {

@@ -31,8 +31,8 @@ bool near_large(const State& state, std::size_t body, physics::CellEntry other) 
         const vec3 apart = physics::middle_of(other.lower, other.upper) - physics::middle_of(own.lower, own.upper);
         const physics::Image image =
             physics::image_of_b(state.properties[body], state.properties[other.body], apart, state.fixed());
-        other.lower = other.lower + image.shift;
-        other.upper = other.upper + image.shift;
+        other.lower = physics::lower_at_image(other.lower, image, state.fixed());
+        other.upper = physics::upper_at_image(other.upper, image, state.fixed());
     }
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
@@ -88,8 +88,8 @@ void for_each_image(const State& state, const physics::Bounds& around, std::uint
     for (physics::ivec3 at = images.first; at.z <= images.last.z; at = physics::next_image(at, images)) {
         const physics::Image image = physics::image_at(vec3(at), state.fixed());
         physics::Bounds there = around;
-        there.lower = there.lower + image.shift;
-        there.upper = there.upper + image.shift;
+        there.lower = physics::lower_at_image(there.lower, image, state.fixed());
+        there.upper = physics::upper_at_image(there.upper, image, state.fixed());
         visit(there, image.periods);
     }
 }

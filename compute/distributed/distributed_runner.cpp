@@ -39,6 +39,8 @@ std::string DistributedRunner::device() const {
 
 void DistributedRunner::attach(State& state) {
     if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
+    if (state.is_periodic())
+        throw std::invalid_argument("a world with a periodic cell runs on one rank; leave out --distributed");
     if (!state.bonds.empty()) throw std::invalid_argument("a world with bonds runs on one rank; leave out --distributed");
     state_ = &state;
     device_.attach(state);

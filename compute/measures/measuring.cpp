@@ -6,6 +6,7 @@
 
 #include "compute/measures.h"
 #include "compute/measures/fixed_sum.h"
+#include "compute/measures/images.h"
 #include "compute/measures/places.h"
 #include "compute/measures/scan.h"
 #include "compute/measures/sums.h"
@@ -41,7 +42,7 @@ struct Measuring::Impl {
     std::uint64_t looked_at = 0;  // steps
 
     void look(const World& world);
-    void cross(dvec3 from, dvec3 to, double mass);
+    void cross(const Images& images, dvec3 from, dvec3 to, double mass);
     std::vector<GateMeasures> gates(const World& world);
     std::vector<BodyLoad> loads(const Scan& scan, const World& world) const;
 };
@@ -64,6 +65,7 @@ void Measuring::Impl::look(const World& world) {
     const std::vector<BodyState> states = world.bodies();
     const std::vector<std::uint8_t> is_grain = granular::grains_among(world, states);
     const State& state = world.state();
+    const Images images(scene.periodic);
     before.resize(states.size());
     const bool several = world.copies() > 1;
     const std::size_t count = world.bodies_of_copy(), first = several ? copy * count : 0;
@@ -72,21 +74,27 @@ void Measuring::Impl::look(const World& world) {
         const bool grain = is_grain[i] != 0;
         const bool same = grain && before[i].there && before[i].generation == generations[i];
         const double inverse = double{state.properties[state.row_of(i)].inverse_mass};
-        if (goes_on && same && inverse > 0) cross(before[i].position, dvec3(now.position), 1 / inverse);
+        if (goes_on && same && inverse > 0) {
+            const dvec3 from = before[i].position, to = from + images.nearest(dvec3(now.position) - from);
+            cross(images, from, to, 1 / inverse);
+        }
         before[i] = {dvec3(now.position), generations[i], grain};
     }
 }
 
-void Measuring::Impl::cross(dvec3 from, dvec3 to, double mass) {
+void Measuring::Impl::cross(const Images& images, dvec3 from, dvec3 to, double mass) {
     for (std::size_t i = 0; i < crossed.size(); ++i) {
         const MeasureGate& gate = request.gates[i];
         const dvec3 u(gate.u), v(gate.v), centre(gate.centre), normal = glm::cross(u, v);
-        const double a = glm::dot(normal, from - centre), b = glm::dot(normal, to - centre);
-        if ((a < 0) == (b < 0)) continue;
-        const dvec3 off = from + (to - from) * (a / (a - b)) - centre;
-        if (std::abs(glm::dot(off, u)) > glm::dot(u, u) || std::abs(glm::dot(off, v)) > glm::dot(v, v)) continue;
-        (a < 0 ? crossed[i].forward : crossed[i].backward).add(mass / mass_unit);
-        ++(a < 0 ? crossed[i].bodies_forward : crossed[i].bodies_backward);
+        const dvec3 reach = glm::abs(u) + glm::abs(v);
+        images.for_each({glm::min(from, to), glm::max(from, to)}, {centre - reach, centre + reach}, [&](dvec3 shift) {
+            const double a = glm::dot(normal, from + shift - centre), b = glm::dot(normal, to + shift - centre);
+            if ((a < 0) == (b < 0)) return;
+            const dvec3 off = from + shift + (to - from) * (a / (a - b)) - centre;
+            if (std::abs(glm::dot(off, u)) > glm::dot(u, u) || std::abs(glm::dot(off, v)) > glm::dot(v, v)) return;
+            (a < 0 ? crossed[i].forward : crossed[i].backward).add(mass / mass_unit);
+            ++(a < 0 ? crossed[i].bodies_forward : crossed[i].bodies_backward);
+        });
     }
 }
 
@@ -123,7 +131,7 @@ std::vector<BodyLoad> Measuring::Impl::loads(const Scan& scan, const World& worl
             const std::optional<vec3>& about = request.bodies[i].about;
             const dvec3 centre = about ? dvec3(*about) : dvec3(scan.states[body].position), force = side * point.force;
             told[i].force += force;
-            told[i].torque += glm::cross(point.position - centre, force);
+            told[i].torque += glm::cross(scan.images.nearest(point.position - centre), force);
         }
     };
     for (const Touch& touch : scan.touches)

@@ -22,6 +22,7 @@ public:
     explicit Cells(const MeasureGrid& grid);
     glm::uvec3 count() const { return count_; }
     std::size_t size() const { return std::size_t{count_.x} * count_.y * count_.z; }
+    Span bounds() const { return {lower_, lower_ + cell_ * glm::dvec3(count_)}; }
     double volume() const { return cell_.x * cell_.y * cell_.z; }
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t at(glm::dvec3 point) const;  // none: it is outside

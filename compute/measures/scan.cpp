@@ -108,7 +108,7 @@ void Scan::choose_units() {
             force = std::max({force, length_of(touch.points[k].force), touch.force});
             for (const std::size_t body : {touch.a, touch.b})
                 if (const Grain* one = grain(body))
-                    branch = std::max(branch, length_of(touch.points[k].position - one->position));
+                    branch = std::max(branch, length_of(images.nearest(touch.points[k].position - one->position)));
         }
     for (const Grain& one : grains) {
         mass = std::max(mass, one.mass);
@@ -120,7 +120,7 @@ void Scan::choose_units() {
              power_above(volume), power_above(diameter)};
 }
 
-Scan::Scan(const World& world, std::size_t copy) {
+Scan::Scan(const World& world, std::size_t copy) : images(world.scene().periodic) {
     const bool several = world.copies() > 1;
     const std::size_t count = world.bodies_of_copy();
     const std::size_t first = several ? copy * count : 0, last = several ? first + count : world.scene().bodies.size();

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "compute/measures/images.h"
 #include "compute/measures/solid.h"
 #include "compute/world.h"
 
@@ -51,6 +52,7 @@ struct Scan {
     std::vector<std::uint32_t> neighbours;  // by grain: bodies that press on it
     std::vector<std::uint8_t> rattler;
     Units units;
+    Images images;
 
     Scan(const World& world, std::size_t copy);
     const Grain* grain(std::size_t body) const { return grain_of[body] == no_grain ? nullptr : &grains[grain_of[body]]; }

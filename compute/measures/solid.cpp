@@ -164,6 +164,13 @@ bool is_in(const Span& box, dvec3 point) {
 
 }  // namespace
 
+Solid moved(Solid solid, dvec3 shift) {
+    solid.centre += shift;
+    solid.bounds.lower += shift;
+    solid.bounds.upper += shift;
+    return solid;
+}
+
 std::vector<Solid> solids_of(const Body& body, dvec3 position, vec4 orientation) {
     std::vector<Solid> solids;
     const auto add = [&](const auto& shape, dvec3 centre, const glm::dquat& turn) {

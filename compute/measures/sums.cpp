@@ -108,9 +108,16 @@ template <class Take>
 void for_each_branch(const Scan& scan, const Touch& touch, const Take& take) {
     for (std::uint32_t k = 0; k < touch.count; ++k) {
         const Touch::Point& point = touch.points[k];
-        if (const Grain* a = scan.grain(touch.a)) take(point.force, a->position, point.position);
-        if (const Grain* b = scan.grain(touch.b)) take(point.force, point.position, b->position);
+        const auto centre_of = [&](const Grain& grain) {
+            return point.position + scan.images.nearest(grain.position - point.position);
+        };
+        if (const Grain* a = scan.grain(touch.a)) take(point.force, centre_of(*a), point.position);
+        if (const Grain* b = scan.grain(touch.b)) take(point.force, point.position, centre_of(*b));
     }
+}
+
+Span span_between(dvec3 from, dvec3 to) {
+    return {glm::min(from, to), glm::max(from, to)};
 }
 
 // Moments of motion and force in a region, about its middle.
@@ -182,28 +189,38 @@ RegionMeasures measures_of(const Scan& scan, const MeasureShape& shape, const st
     RegionSums sums;
     for (std::size_t i = 0; i < scan.grains.size(); ++i) {
         const Grain& grain = scan.grains[i];
-        for (const Solid& solid : grain.solids) sums.cell.solid.add(volume_within(solid, shape) / units.volume);
-        if (!holds(shape, grain.position)) continue;
-        sums.cell.add(grain, scan.neighbours[i], scan.rattler[i] != 0, units);
-        sums.diameter.add(diameter_of(grain) / units.diameter);
-        sums.volume.add(grain.volume / units.volume);
-        const double m = grain.mass / units.mass;
-        const dvec3 x = (grain.position - middle) / units.way, v = grain.velocity / units.speed;
-        for (int k = 0; k < 3; ++k) sums.first[static_cast<std::size_t>(k)].add(m * x[k]);
-        for (int p = 0; p < 3; ++p)
-            for (int q = 0; q < 3; ++q) {
-                sums.second[static_cast<std::size_t>(3 * p + q)].add(m * x[p] * x[q]);
-                sums.cross[static_cast<std::size_t>(3 * p + q)].add(m * v[p] * x[q]);
-            }
+        for (const Solid& solid : grain.solids)
+            scan.images.for_each(solid.bounds, around, [&](dvec3 shift) {
+                sums.cell.solid.add(volume_within(moved(solid, shift), shape) / units.volume);
+            });
+        scan.images.for_each({grain.position, grain.position}, around, [&](dvec3 shift) {
+            const dvec3 position = grain.position + shift;
+            if (!holds(shape, position)) return;
+            sums.cell.add(grain, scan.neighbours[i], scan.rattler[i] != 0, units);
+            sums.diameter.add(diameter_of(grain) / units.diameter);
+            sums.volume.add(grain.volume / units.volume);
+            const double m = grain.mass / units.mass;
+            const dvec3 x = (position - middle) / units.way, v = grain.velocity / units.speed;
+            for (int k = 0; k < 3; ++k) sums.first[static_cast<std::size_t>(k)].add(m * x[k]);
+            for (int p = 0; p < 3; ++p)
+                for (int q = 0; q < 3; ++q) {
+                    sums.second[static_cast<std::size_t>(3 * p + q)].add(m * x[p] * x[q]);
+                    sums.cross[static_cast<std::size_t>(3 * p + q)].add(m * v[p] * x[q]);
+                }
+        });
     }
     for (const Touch& touch : scan.touches) {
         for_each_branch(scan, touch, [&](dvec3 force, dvec3 from, dvec3 to) {
-            const double share = share_of(shape, from, to);
-            if (share > 0) sums.cell.add_branch(force, to - from, share, units);
+            scan.images.for_each(span_between(from, to), around, [&](dvec3 shift) {
+                const double share = share_of(shape, from + shift, to + shift);
+                if (share > 0) sums.cell.add_branch(force, to - from, share, units);
+            });
         });
-        if (!holds(shape, touch.middle)) continue;
-        sums.cell.add(touch, units);
-        sums.forces.push_back(touch.force);
+        scan.images.for_each({touch.middle, touch.middle}, around, [&](dvec3 shift) {
+            if (!holds(shape, touch.middle + shift)) return;
+            sums.cell.add(touch, units);
+            sums.forces.push_back(touch.force);
+        });
     }
     RegionMeasures told;
     told.name = name;
@@ -231,6 +248,7 @@ RegionMeasures measures_of_all(const Scan& scan) {
             around.lower = glm::min(around.lower, solid.bounds.lower);
             around.upper = glm::max(around.upper, solid.bounds.upper);
         }
+    around = scan.images.cell_or(around);
     // Outwards to floats, so that nothing sticks out.
     MeasureBox box;
     for (int k = 0; k < 3; ++k) {
@@ -242,19 +260,29 @@ RegionMeasures measures_of_all(const Scan& scan) {
 
 std::vector<CellMeasures> measures_of(const Scan& scan, const Cells& cells) {
     std::vector<CellSums> sums(cells.size());
+    const Span around = cells.bounds();
     for (std::size_t i = 0; i < scan.grains.size(); ++i) {
         const Grain& grain = scan.grains[i];
         for (const Solid& solid : grain.solids)
-            cells.fill(solid, [&](std::size_t cell, double volume) { sums[cell].solid.add(volume / scan.units.volume); });
-        if (const std::size_t cell = cells.at(grain.position); cell != Cells::none)
-            sums[cell].add(grain, scan.neighbours[i], scan.rattler[i] != 0, scan.units);
+            scan.images.for_each(solid.bounds, around, [&](dvec3 shift) {
+                cells.fill(moved(solid, shift),
+                           [&](std::size_t cell, double volume) { sums[cell].solid.add(volume / scan.units.volume); });
+            });
+        scan.images.for_each({grain.position, grain.position}, around, [&](dvec3 shift) {
+            if (const std::size_t cell = cells.at(grain.position + shift); cell != Cells::none)
+                sums[cell].add(grain, scan.neighbours[i], scan.rattler[i] != 0, scan.units);
+        });
     }
     for (const Touch& touch : scan.touches) {
         for_each_branch(scan, touch, [&](dvec3 force, dvec3 from, dvec3 to) {
-            cells.walk(from, to,
-                       [&](std::size_t cell, double share) { sums[cell].add_branch(force, to - from, share, scan.units); });
+            scan.images.for_each(span_between(from, to), around, [&](dvec3 shift) {
+                cells.walk(from + shift, to + shift,
+                           [&](std::size_t cell, double share) { sums[cell].add_branch(force, to - from, share, scan.units); });
+            });
         });
-        if (const std::size_t cell = cells.at(touch.middle); cell != Cells::none) sums[cell].add(touch, scan.units);
+        scan.images.for_each({touch.middle, touch.middle}, around, [&](dvec3 shift) {
+            if (const std::size_t cell = cells.at(touch.middle + shift); cell != Cells::none) sums[cell].add(touch, scan.units);
+        });
     }
     std::vector<CellMeasures> told(cells.size());
     for (std::size_t i = 0; i < told.size(); ++i) sums[i].tell(told[i], cells.volume(), scan.units);
@@ -277,7 +305,7 @@ GrainMeasures measures_of_grains(const Scan& scan) {
             const auto add = [&](std::size_t body, double side) {
                 const Grain* grain = scan.grain(body);
                 if (!grain) return;
-                const dvec3 branch = (point.position - grain->position) * (side / grain->volume);
+                const dvec3 branch = scan.images.nearest(point.position - grain->position) * (side / grain->volume);
                 for (int i = 0; i < 3; ++i)
                     for (int j = 0; j < 3; ++j)
                         told.stress[body][static_cast<std::size_t>(3 * i + j)] += point.force[i] * branch[j];

@@ -243,7 +243,7 @@ std::vector<StageDeclaration> declare() {
         {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
     all.push_back({"enter_cell", DispatchDomain::bodies, enter_cell,
-        {{counts}, {properties, A::bodies, 1}, {poses, A::bodies}, {velocities, A::bodies}},
+        {{properties, A::bodies, 1}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
         {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}},

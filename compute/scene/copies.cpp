@@ -77,7 +77,7 @@ bool equal(const Fields& x, const Fields& y) {
                [](const Attractor& a, const Attractor& b) { return a.position == b.position && a.strength == b.strength; });
 }
 
-// Rows of a copy are found by counting, and fields act on all.
+// Rows of a copy are found by counting, and fields and the periodic cell are of all.
 void require_alike(const Scene& one, const Scene& varied, std::size_t copy) {
     const auto refuse = [&](const std::string& what) {
         throw std::invalid_argument("copy " + std::to_string(copy) + " of the scene has " + what +
@@ -122,6 +122,7 @@ CopiedScene copied(const Scene& one, std::size_t copies, const std::function<voi
         if (copy == 0) {
             all.gravity = next.gravity;
             all.fields = next.fields;
+            all.periodic = next.periodic;
             all.bodies.reserve(copies * next.bodies.size());
         }
         const Moved moved{copy * one.bodies.size(), copy * one.joints.size()};

@@ -61,9 +61,6 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
-    if (ranks && scene.periodic.any())
-        throw std::invalid_argument(
-            "a scene with a periodic cell runs on one rank: leave out \"periodic\", or run it without MPI");
     count_joints();
     if (state.has_copies()) keep_start();
     if (!s.gravities.empty()) {

@@ -107,10 +107,15 @@ void set_of_world(World& world, const std::string& what, const json& value) {
         read(value, place, substeps);
         return world.set_substeps(substeps);
     }
+    if (what == "cell_rate") {
+        vec3 rate;
+        read(value, place, rate);
+        return world.set_cell_rate(rate);
+    }
     bool on = false;
     if (what == "sleeping") return read(value, place, on), world.set_sleeping(on);
     if (what == "profiling") return read(value, place, on), world.set_profiling(on);
-    refuse(unknown("what", what, {"fields", "friction_factor", "least_restitution", "substeps", "sleeping", "profiling"}));
+    refuse(unknown("what", what, {"fields", "friction_factor", "least_restitution", "substeps", "cell_rate", "sleeping", "profiling"}));
 }
 
 }  // namespace

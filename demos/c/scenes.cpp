@@ -36,7 +36,8 @@ const std::vector<std::pair<std::string, KeysOf>>& described() {
         {"vehicle", &keys_of<Vehicle>},   {"filter", &keys_of<Filter>},        {"material", &keys_of<Material>},
         {"fields", &keys_of<Fields>},     {"fracture", &keys_of<Fracture>},    {"tyre", &keys_of<Tyre>},
         {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>},
-        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>},        {"servo_walls", &keys_of<ServoWall>}};
+        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>},        {"servo_walls", &keys_of<ServoWall>},
+        {"periodic", &keys_of<PeriodicCell>}};
     return all;
 }
 
@@ -276,6 +277,13 @@ const std::vector<std::pair<std::string, Set>>& parts() {
              check_world_fields(made);
              of.scene.fields = std::move(made);
          }},
+        {"periodic",
+         [](SceneDocument& of, const json& value) {
+             PeriodicCell made;
+             read_value(value, root / "periodic", made, "", {});
+             schema::check_fields(root / "periodic", made);
+             of.scene.periodic = made;
+         }},
         {"gravity",
          [](SceneDocument& of, const json& value) {
              vec3 gravity;
@@ -320,6 +328,7 @@ const std::vector<std::pair<std::string, Get>>& questions() {
         {"camera", [](const SceneObject& of) { return value_json(of.document.viewpoint); }},
         {"fields", [](const SceneObject& of) { return value_json(of.document.scene.fields); }},
         {"gravity", [](const SceneObject& of) { return value_json(of.document.scene.gravity); }},
+        {"periodic", [](const SceneObject& of) { return value_json(of.document.scene.periodic); }},
         {"duration", [](const SceneObject& of) { return value_json(of.document.duration); }},
         {"notes", [](const SceneObject& of) { return json_of_words(of.notes); }},
         {"bodies", [](const SceneObject& of) { return names_json(of.document.scene.bodies, of.document.scene.bodies.size()); }},

@@ -67,7 +67,7 @@ typedef enum scree_result {
 SCREE_API const char* scree_error_message(void);
 SCREE_API const char* scree_error_place(void); /* a JSON pointer, or "" */
 
-SCREE_API const char* scree_version(void); /* such as "0.15.0" */
+SCREE_API const char* scree_version(void); /* such as "0.16.0" */
 SCREE_API int scree_has_vulkan(void);      /* whether it was built with it */
 
 /* JSON of what the library knows. what: "schema" of scene files; "settings" by default; "demos", an array of [name, line]; "keys"
@@ -148,7 +148,7 @@ SCREE_API scree_result scree_scene_add_bodies(scree_scene* scene, const char* bo
  * "carts". index: in the list, of grains that of the first body, or of the event that pours them, of bonds the first, of a servo
  * wall that of its joint; may be null. */
 SCREE_API scree_result scree_scene_add(scree_scene* scene, const char* list, const char* json, size_t* index);
-/* key: "settings", "picture", "camera", "fields", "gravity", "duration". null as JSON takes settings, picture and camera away. */
+/* key: "settings", "picture", "camera", "fields", "periodic", "gravity", "duration". null as JSON takes settings, picture and camera away. */
 SCREE_API scree_result scree_scene_set(scree_scene* scene, const char* key, const char* json);
 /* key: those of scree_scene_set; "notes" of reading it; names of "bodies", "joints", "vehicles"; "scene": all of it, as a scene
  * file; "whole": with the meshes of files in it. */
@@ -260,6 +260,8 @@ SCREE_API scree_result scree_world_reset(scree_world* world, const uint8_t* copi
                                          size_t count); /* those that are not 0, to the start */
 SCREE_API scree_result scree_world_gravity(scree_world* world, size_t copy, float gravity[3]);
 SCREE_API scree_result scree_world_set_gravity(scree_world* world, size_t copy, const float gravity[3]);
+/* Of the periodic cell now: m, 0 along axes without; 1/s. */
+SCREE_API scree_result scree_world_cell(scree_world* world, float size[3], float rate[3]);
 SCREE_API scree_result scree_world_wake_copy(scree_world* world, size_t copy); /* SCREE_ALL_COPIES: everything */
 
 /* ---- Bodies */
@@ -298,7 +300,8 @@ SCREE_API scree_result scree_world_set_material(scree_world* world, const int64_
 /* what: "mass" (kg), "filter", "motion" ("fixed", "kinematic" or "dynamic"), as in scene files. */
 SCREE_API scree_result scree_world_set_body(scree_world* world, size_t body, const char* what, const char* json);
 SCREE_API scree_result scree_world_set_exclusion(scree_world* world, size_t a, size_t b, int excluded);
-/* what: "fields" (of wind, fluids, attractors), "friction_factor", "least_restitution", "substeps", "sleeping", "profiling". */
+/* what: "fields" (of wind, fluids, attractors), "friction_factor", "least_restitution", "substeps", "cell_rate" (of the periodic
+ * cell, 1/s), "sleeping", "profiling". */
 SCREE_API scree_result scree_world_set(scree_world* world, const char* what, const char* json);
 SCREE_API scree_result scree_world_explode(scree_world* world, const float centre[3], float radius, float speed);
 

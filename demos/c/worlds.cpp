@@ -427,6 +427,19 @@ scree_result scree_world_gravity(scree_world* world, size_t copy, float gravity[
     });
 }
 
+scree_result scree_world_cell(scree_world* world, float size[3], float rate[3]) {
+    return called([&] {
+        given(size, "size");
+        given(rate, "rate");
+        const UsedWorld used(world);
+        const PeriodicCell& cell = used->world.scene().periodic;
+        for (int k = 0; k < 3; ++k) {
+            size[k] = cell.size[k];
+            rate[k] = cell.rate[k];
+        }
+    });
+}
+
 scree_result scree_world_set_gravity(scree_world* world, size_t copy, const float gravity[3]) {
     return called([&] {
         const UsedWorld used(world);

@@ -43,7 +43,7 @@ export interface SceneClass {
 export interface Scene {
   addBodies(body: Json, count?: number, columns?: Columns): number;
   add(list: 'joints' | 'vehicles' | 'events' | 'grains' | 'exclusions' | 'cars' | 'carts', item: Json): number;
-  set(key: 'settings' | 'picture' | 'camera' | 'fields' | 'gravity' | 'duration', value: Json): void;
+  set(key: 'settings' | 'picture' | 'camera' | 'fields' | 'periodic' | 'gravity' | 'duration', value: Json): void;
   get(key: string): any;
   count(list: 'bodies' | 'joints' | 'vehicles' | 'events'): number;
   find(list: 'bodies' | 'joints' | 'vehicles', name: string): number;
@@ -69,7 +69,7 @@ export interface World {
   statistics(copy?: number): Record<string, number> & { momentum: number[]; angular_momentum: number[] };
   count(list: 'bodies' | 'bodies_there' | 'joints' | 'vehicles' | 'copies'): number;
   get(key: 'settings' | 'stage_times' | 'bodies' | 'joints'): any;
-  set(what: 'fields' | 'friction_factor' | 'least_restitution' | 'substeps' | 'sleeping' | 'profiling', value: Json): void;
+  set(what: 'fields' | 'friction_factor' | 'least_restitution' | 'substeps' | 'cell_rate' | 'sleeping' | 'profiling', value: Json): void;
   find(list: 'bodies' | 'joints', name: string): number;
   dispose(): void;
 

@@ -27,7 +27,11 @@ std::vector<ContactPoint> contact_points_of(const World& world, std::size_t body
         if (a != row && b != row) continue;
         for (std::uint32_t k = 0; k < contact.count; ++k) {
             const vec3 arm(contact.points[k]);
-            const physics::Pose &on_a = state.poses[a], &on_b = state.poses[b];
+            const physics::Pose& on_a = state.poses[a];
+            physics::Pose on_b = state.poses[b];
+            if (state.is_periodic())
+                on_b = physics::at_image(on_b, physics::image_of_b(state.properties[a], state.properties[b],
+                                                                   on_b.position - on_a.position, state.fixed()));
             ContactPoint point;
             point.other = state.id_of(a == row ? b : a);
             // The mean of the point as it moves with either body.

@@ -22,7 +22,11 @@ vec3 turned_on(vec4 when_made, vec4 now, vec3 arm) {
 // The point moves with both bodies, but does not roll with round ones.
 vec3 point_now(const State& state, const physics::Contact& contact, physics::uint k) {
     const vec3 arm(contact.points[k]), arm_b = arm - contact.center_offset;
-    const physics::Pose &a = state.poses[state.body_of(contact.a)], &b = state.poses[state.body_of(contact.b)];
+    const physics::Pose& a = state.poses[state.body_of(contact.a)];
+    physics::Pose b = state.poses[state.body_of(contact.b)];
+    if (state.is_periodic())
+        b = physics::at_image(b, physics::image_of_b(state.properties[contact.a], state.properties[contact.b],
+                                                     b.position - a.position, state.fixed()));
     const bool round_a = state.properties[contact.a].shape == physics::SHAPE_SPHERE;
     const bool round_b = state.properties[contact.b].shape == physics::SHAPE_SPHERE;
     if (round_a != round_b) return round_a ? a.position + arm : b.position + arm_b;

@@ -122,7 +122,7 @@ _SIGNATURES = {
     "scree_world_statistics": "pzp", "scree_world_hash": "pp", "scree_world_copy_hashes": "pp", "scree_world_save": "pp",
     "scree_world_restore": "psz", "scree_world_write_checkpoint": "pss", "scree_world_read_checkpoint": "psp", "scree_world_keep_state": "p",
     "scree_world_roll_back": "pu", "scree_world_kept_states": "pp", "scree_world_drop_states": "p", "scree_world_snapshot": "pzp",
-    "scree_world_reset": "ppz", "scree_world_gravity": "pzp", "scree_world_set_gravity": "pzp", "scree_world_wake_copy": "pz",
+    "scree_world_reset": "ppz", "scree_world_gravity": "pzp", "scree_world_set_gravity": "pzp", "scree_world_cell": "ppp", "scree_world_wake_copy": "pz",
     "scree_world_read": "ppzz", "scree_world_read_of": "ppzpz", "scree_world_write": "ppzpz", "scree_world_apply": "ppzpz",
     "scree_world_move": "ppzpzi", "scree_world_add_bodies": "ppp", "scree_world_remove_bodies": "ppz", "scree_world_bodies": "ppzp",
     "scree_world_are_valid": "ppzp", "scree_world_wake": "ppz", "scree_world_set_material": "ppzs", "scree_world_set_body": "pzss",

@@ -577,6 +577,11 @@ class World:
     def set_gravity_of(self, copy: int, gravity: Any) -> None:
         self._call(LIBRARY.scree_world_set_gravity, copy, _triple(gravity))
 
+    def cell(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+        size, rate = (ctypes.c_float * 3)(), (ctypes.c_float * 3)()
+        self._call(LIBRARY.scree_world_cell, size, rate)
+        return tuple(size), tuple(rate)
+
     @property
     def gravity(self) -> Any:
         return self.gravity_of(ALL_COPIES)
@@ -716,7 +721,7 @@ class World:
     def set_fields(self, fields: str) -> None:
         self._call(LIBRARY.scree_world_set, b"fields", _text(fields))
 
-    def tune(self, what: str, value: Union[int, float, bool]) -> None:
+    def tune(self, what: str, value: Union[int, float, bool, List[float]]) -> None:
         self._call(LIBRARY.scree_world_set, what.encode(), json.dumps(value).encode())
 
     # ---- contacts and events

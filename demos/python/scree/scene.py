@@ -191,6 +191,14 @@ class Scene(Bodies[_native.Description]):
         require_keys(fields, _native.keys("fields"), "fields")
         self._native.set_part("fields", json_text(fields, "/fields"))
 
+    def set_periodic(self, size: Vector, *, centre: Vector = (0, 0, 0), rate: Vector = (0, 0, 0)) -> None:
+        """A periodic cell: what leaves it through one side comes back through the opposite one.
+
+        size, centre: (3,), m; size 0 along axes without. rate: (3,), 1/s, at which it stretches; see World.cell_rate.
+        """
+        cell = {"size": triple(size, "size"), "centre": triple(centre, "centre"), "rate": triple(rate, "rate")}
+        self._native.set_part("periodic", json_text(cell, "/periodic"))
+
     # ---- grains
     def add_grains(self, *, sieve: Optional[Any] = None, **keys: Any) -> Ids:
         """Adds grains whose sizes follow a sieve curve, with the keys of "grains" in a scene file.

@@ -532,6 +532,20 @@ class World(Bodies[_native.World]):
     def gravity(self, value: Vector) -> None:
         self._native.gravity = triple(value, "gravity")
 
+    @property
+    def cell_size(self) -> Tuple[float, ...]:
+        """(3,), m: of the periodic cell now; 0 along axes without."""
+        return self._native.cell()[0]
+
+    @property
+    def cell_rate(self) -> Tuple[float, ...]:
+        """(3,), 1/s: at which the periodic cell stretches; settable, from the next step on."""
+        return self._native.cell()[1]
+
+    @cell_rate.setter
+    def cell_rate(self, value: Vector) -> None:
+        self._native.tune("cell_rate", [float(x) for x in triple(value, "cell_rate")])
+
     def tune(self, *, substeps: Optional[int] = None, friction_factor: Optional[float] = None,
              least_restitution: Optional[float] = None, sleeping: Optional[bool] = None) -> None:
         """Changes settings from the next step on."""

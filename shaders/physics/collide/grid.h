@@ -143,6 +143,7 @@ struct ImageRange {
 };
 LAW ImageRange images_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
     vec3 reach = vec3(parameters.cell * power_of_two(int(level)));
+    reach = reach + absolute3(parameters.period * parameters.cell_rate) * parameters.dt;
     if (parameters.first_part < parameters.bodies) reach = reach + parameters.half_period * 0.5f;
     vec3 low = (parameters.cell_centre - parameters.half_period) + reach,
          high = (parameters.cell_centre + parameters.half_period) - reach;
@@ -160,6 +161,13 @@ LAW ivec3 next_image(ivec3 at, ImageRange images) {
     at.y = images.first.y;
     ++at.z;
     return at;
+}
+// Bounds at an image, with its way in the step.
+LAW vec3 lower_at_image(vec3 lower, Image image, Parameters parameters) {
+    return lower + image.shift + smaller3(image.velocity * parameters.dt, vec3(0.0f));
+}
+LAW vec3 upper_at_image(vec3 upper, Image image, Parameters parameters) {
+    return upper + image.shift + larger3(image.velocity * parameters.dt, vec3(0.0f));
 }
 LAW vec3 middle_of(vec3 lower, vec3 upper) {
     return (lower + upper) * 0.5f;

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
+#include "shaders/physics/body/body_scale.h"
 #include "shaders/render/scene.h"
 
 layout(std430, set = 0, binding = 11) readonly buffer TouchTable {
@@ -18,9 +19,6 @@ const vec3 PUSHING = vec3(0.16, 1.0, 0.42);
 const vec3 IDLE = vec3(0.42, 0.55, 0.62);
 const float LONGEST = 0.95;  // half length as a fraction of the thinner body's half width, so that lines of a stack do not meet
 
-bool is_round(BodyProperties t) {
-    return has_round_core(t.shape);
-}
 // The body of a part's row.
 uint body_of(uint row) {
     return (properties[row].motion & MOTION_OF_PART) != 0u ? properties[row].owner : row;
@@ -37,6 +35,9 @@ vec3 point_now(Contact touch, uint k, BodyProperties a, BodyProperties b) {
     uint of_a = body_of(touch.a), of_b = body_of(touch.b);
     vec3 on_a = poses[of_a].position - frame.eye.xyz;
     vec3 on_b = poses[of_b].position - frame.eye.xyz;
+    // In a periodic cell the two may meet across its sides: then the point is shown beside A.
+    vec3 of_image = on_a + touch.center_offset;
+    if (distance(on_b, of_image) > bounding_radius(a) + bounding_radius(b)) on_b = of_image;
     if (is_round(a) != is_round(b)) return is_round(a) ? on_a + arm : on_b + arm - touch.center_offset;
     if (is_round(a)) return 0.5 * (on_a + arm + on_b + arm - touch.center_offset);
     return 0.5 * (on_a + turned_on(touch.orientation_a, poses[of_a].orientation, arm) + on_b +

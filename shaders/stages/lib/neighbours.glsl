@@ -64,8 +64,10 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
         BodyProperties theirs = READ(properties, other);
         if (PERIODIC) {
             vec3 apart = middle_of(entry.lower, entry.upper) - middle_of(around.lower, around.upper);
-            vec3 shift = image_of_b(own, theirs, apart, PARAMETERS).shift;
-            if (!boxes_overlap(around.lower, around.upper, entry.lower + shift, entry.upper + shift)) continue;
+            Image image = image_of_b(own, theirs, apart, PARAMETERS);
+            if (!boxes_overlap(around.lower, around.upper, lower_at_image(entry.lower, image, PARAMETERS),
+                               upper_at_image(entry.upper, image, PARAMETERS)))
+                continue;
         }
         if (!can_touch(own, theirs)) continue;
         bool near = true;
@@ -146,9 +148,9 @@ void look_around(uint body) {
             Bounds there = around;
             vec3 periods = vec3(at);
             if (PERIODIC) {
-                vec3 shift = image_at(periods, PARAMETERS).shift;
-                there.lower = there.lower + shift;
-                there.upper = there.upper + shift;
+                Image image = image_at(periods, PARAMETERS);
+                there.lower = lower_at_image(there.lower, image, PARAMETERS);
+                there.upper = upper_at_image(there.upper, image, PARAMETERS);
                 at = next_image(at, images);
             }
             CellRange range = cells_in_reach(there.lower, there.upper, level, PARAMETERS);
