@@ -95,9 +95,9 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add_scan("cells");
     s.add("fill_cells");
     s.add("sort_cells");
-    s.add("count_pairs");
+    s.add(features.periodic ? "count_pairs_periodic" : "count_pairs");
     s.add_scan("pairs");
-    s.add("fill_pairs");
+    s.add(features.periodic ? "fill_pairs_periodic" : "fill_pairs");
     s.add("match_pairs");
     // narrowphase: manifolds
     s.add("count_pair_types");

@@ -73,10 +73,16 @@ void declare_convex(std::vector<StageDeclaration>& all) {
     all.back().reads.push_back({hulls});
 }
 
+// The variant for scenes with a periodic cell.
+void declare_periodic(std::vector<StageDeclaration>& all) {
+    all.push_back(all.back());
+    all.back().name += "_periodic";
+}
+
 void declare_broadphase(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features =
         physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES |
-        physics::FEATURE_GHOSTS | physics::FEATURE_PERIODIC;
+        physics::FEATURE_GHOSTS;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{counts}, {bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -90,11 +96,13 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
         {{counts}, {bounds, A::bodies, 1}, {properties, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
          {filters}, {exclusions}, {first_contacts}, {contacts_before}, {copy_states}},
         {{pair_starts, A::bodies}, unfinished({pairs, A::bodies, 2}), {counts}}, features});
+    declare_periodic(all);
     declare_scan(all, {"pairs", DispatchDomain::body_scan_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
     all.push_back({"fill_pairs", DispatchDomain::bodies, fill_pairs,
         {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {properties}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
          {filters}, {exclusions}, {first_contacts}, {contacts_before}, {copy_states}},
         {unfinished({candidates, A::pairs})}, features});
+    declare_periodic(all);
     all.push_back({"match_pairs", DispatchDomain::pairs, match_pairs,
         {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {properties, A::bodies},
          {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}, {births}, {gravities}},

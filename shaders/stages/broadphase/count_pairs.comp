@@ -1,3 +1,5 @@
+// variants: count_pairs -DWITHOUT_IMAGES
+// variants: count_pairs_periodic -DWITH_IMAGES
 // Broadphase: counts the pairs that each body owns.
 #version 460
 #extension GL_GOOGLE_include_directive : require

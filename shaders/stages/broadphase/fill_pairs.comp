@@ -1,3 +1,5 @@
+// variants: fill_pairs -DWITHOUT_IMAGES
+// variants: fill_pairs_periodic -DWITH_IMAGES
 // Broadphase: lists the partners of each body's pairs, in the order of the search.
 #version 460
 #extension GL_GOOGLE_include_directive : require

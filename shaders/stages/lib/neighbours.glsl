@@ -1,6 +1,7 @@
 // Broadphase search: calls found(), which the stage defines, for the partners of the pairs that one body owns. Partners
 // are bodies with overlapping bounds; between inactive bodies, those of last step's contacts. Loops are tested at their
-// foot, since lavapipe runs others once more: of nested ones that is most of the work.
+// foot, since lavapipe runs others once more: of nested ones that is most of the work. WITH_IMAGES: in a periodic cell; the
+// constant PERIODIC in its place took lavapipe half as long again, though it is false.
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
@@ -52,6 +53,20 @@ void meets(uint body, uint other) {
     found(other);
 }
 
+#ifdef WITH_IMAGES
+// From which images of the body the rows of cells are looked through, and the middle of its own bounds.
+vec3 periods, middle;
+
+// At the image that the body meets.
+CellEntry nearest_of(CellEntry entry, BodyProperties own, Bounds around) {
+    vec3 apart = middle_of(entry.lower, entry.upper) - middle_of(around.lower, around.upper);
+    Image image = image_of_b(own, READ(properties, entry.body), apart, PARAMETERS);
+    entry.lower = lower_at_image(entry.lower, image, PARAMETERS);
+    entry.upper = upper_at_image(entry.upper, image, PARAMETERS);
+    return entry;
+}
+#endif
+
 void look_through_large(uint body, BodyProperties own, Bounds around) {
     uint own_bucket = PARAMETERS.buckets + (COPIES ? around.level >> COPY_SHIFT : 0u), last = READ_WORD(cell_ends, own_bucket);
     uint next = READ_WORD(cell_ends, own_bucket - 1u);
@@ -60,15 +75,11 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
         CellEntry entry = READ(cell_entries, next++);
         uint other = entry.body;
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
-        if (!PERIODIC && !boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
+#ifdef WITH_IMAGES
+        entry = nearest_of(entry, own, around);
+#endif
+        if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         BodyProperties theirs = READ(properties, other);
-        if (PERIODIC) {
-            vec3 apart = middle_of(entry.lower, entry.upper) - middle_of(around.lower, around.upper);
-            Image image = image_of_b(own, theirs, apart, PARAMETERS);
-            if (!boxes_overlap(around.lower, around.upper, lower_at_image(entry.lower, image, PARAMETERS),
-                               upper_at_image(entry.upper, image, PARAMETERS)))
-                continue;
-        }
         if (!can_touch(own, theirs)) continue;
         bool near = true;
         if (theirs.shape == SHAPE_PLANE)
@@ -79,9 +90,8 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
     } while (next < last);
 }
 
-// Cells along x are consecutive buckets, which may wrap round the end of the grid's entries. `around`: of the body's image at
-// those periods; `middle`: of its own bounds.
-void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level, vec3 periods, vec3 middle) {
+// Cells along x are consecutive buckets, which may wrap round the end of the grid's entries.
+void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level) {
     uint key = COPIES ? level | (around.level & COPY_BITS) : level;
     uint low = bucket_of(from, key, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), key, PARAMETERS.buckets);
@@ -100,11 +110,23 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
         if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
-        if (PERIODIC && !is_nearest_image(periods, middle_of(entry.lower, entry.upper) - middle, PARAMETERS)) continue;
+#ifdef WITH_IMAGES
+        if (!is_nearest_image(periods, middle_of(entry.lower, entry.upper) - middle, PARAMETERS)) continue;
+#endif
         if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(properties, entry.body).owner == own.owner)
             continue;
         if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
     } while (next < entries);
+}
+
+void look_through_level(uint body, BodyProperties own, Bounds around, uint level) {
+    CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
+    int z = range.first.z;
+    do {
+        int y = range.first.y;
+        do look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
+        while (++y <= range.last.y);
+    } while (++z <= range.last.z);
 }
 
 // Partners of an inactive body that are inactive too: those of its contacts in the last step, if one of them is dynamic still.
@@ -141,27 +163,22 @@ void look_around(uint body) {
     do {
         uint level = uint(findLSB(levels));
         levels &= levels - 1u;
-        ImageRange images = ImageRange(ivec3(0), ivec3(0));
-        if (PERIODIC) images = images_in_reach(around.lower, around.upper, level, PARAMETERS);
+#ifdef WITH_IMAGES
+        middle = middle_of(around.lower, around.upper);
+        ImageRange images = images_in_reach(around.lower, around.upper, level, PARAMETERS);
         ivec3 at = images.first;
         do {
+            periods = vec3(at);
+            Image image = image_at(periods, PARAMETERS);
             Bounds there = around;
-            vec3 periods = vec3(at);
-            if (PERIODIC) {
-                Image image = image_at(periods, PARAMETERS);
-                there.lower = lower_at_image(there.lower, image, PARAMETERS);
-                there.upper = upper_at_image(there.upper, image, PARAMETERS);
-                at = next_image(at, images);
-            }
-            CellRange range = cells_in_reach(there.lower, there.upper, level, PARAMETERS);
-            int z = range.first.z;
-            do {
-                int y = range.first.y;
-                do look_through_row(body, own, there, ivec3(range.first.x, y, z), range.last.x, level, periods,
-                                    middle_of(around.lower, around.upper));
-                while (++y <= range.last.y);
-            } while (++z <= range.last.z);
-        } while (PERIODIC && at.z <= images.last.z);
+            there.lower = lower_at_image(around.lower, image, PARAMETERS);
+            there.upper = upper_at_image(around.upper, image, PARAMETERS);
+            look_through_level(body, own, there, level);
+            at = next_image(at, images);
+        } while (at.z <= images.last.z);
+#else
+        look_through_level(body, own, around, level);
+#endif
     } while (levels != 0u);
 }
 
