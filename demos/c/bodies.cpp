@@ -115,7 +115,8 @@ void set_of_world(World& world, const std::string& what, const json& value) {
     bool on = false;
     if (what == "sleeping") return read(value, place, on), world.set_sleeping(on);
     if (what == "profiling") return read(value, place, on), world.set_profiling(on);
-    refuse(unknown("what", what, {"fields", "friction_factor", "least_restitution", "substeps", "cell_rate", "sleeping", "profiling"}));
+    refuse(unknown("what", what,
+                   {"fields", "friction_factor", "least_restitution", "substeps", "cell_rate", "sleeping", "profiling"}));
 }
 
 }  // namespace

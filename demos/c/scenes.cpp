@@ -31,13 +31,22 @@ namespace {
 
 using KeysOf = const Names& (*)();
 const std::vector<std::pair<std::string, KeysOf>>& described() {
-    static const std::vector<std::pair<std::string, KeysOf>> all{
-        {"body", &keys_of<Body>},         {"joint", &keys_of<Joint>},          {"settings", &keys_of<Settings>},
-        {"vehicle", &keys_of<Vehicle>},   {"filter", &keys_of<Filter>},        {"material", &keys_of<Material>},
-        {"fields", &keys_of<Fields>},     {"fracture", &keys_of<Fracture>},    {"tyre", &keys_of<Tyre>},
-        {"controls", &keys_of<Controls>}, {"picture", &keys_of<PictureStyle>}, {"camera", &keys_of<Viewpoint>},
-        {"grains", &keys_of<FileGrains>}, {"bonds", &keys_of<Bonding>},        {"servo_walls", &keys_of<ServoWall>},
-        {"periodic", &keys_of<PeriodicCell>}};
+    static const std::vector<std::pair<std::string, KeysOf>> all{{"body", &keys_of<Body>},
+                                                                 {"joint", &keys_of<Joint>},
+                                                                 {"settings", &keys_of<Settings>},
+                                                                 {"vehicle", &keys_of<Vehicle>},
+                                                                 {"filter", &keys_of<Filter>},
+                                                                 {"material", &keys_of<Material>},
+                                                                 {"fields", &keys_of<Fields>},
+                                                                 {"fracture", &keys_of<Fracture>},
+                                                                 {"tyre", &keys_of<Tyre>},
+                                                                 {"controls", &keys_of<Controls>},
+                                                                 {"picture", &keys_of<PictureStyle>},
+                                                                 {"camera", &keys_of<Viewpoint>},
+                                                                 {"grains", &keys_of<FileGrains>},
+                                                                 {"bonds", &keys_of<Bonding>},
+                                                                 {"servo_walls", &keys_of<ServoWall>},
+                                                                 {"periodic", &keys_of<PeriodicCell>}};
     return all;
 }
 

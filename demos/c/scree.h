@@ -148,7 +148,8 @@ SCREE_API scree_result scree_scene_add_bodies(scree_scene* scene, const char* bo
  * "carts". index: in the list, of grains that of the first body, or of the event that pours them, of bonds the first, of a servo
  * wall that of its joint; may be null. */
 SCREE_API scree_result scree_scene_add(scree_scene* scene, const char* list, const char* json, size_t* index);
-/* key: "settings", "picture", "camera", "fields", "periodic", "gravity", "duration". null as JSON takes settings, picture and camera away. */
+/* key: "settings", "picture", "camera", "fields", "periodic", "gravity", "duration". null as JSON takes settings, picture and
+ * camera away. */
 SCREE_API scree_result scree_scene_set(scree_scene* scene, const char* key, const char* json);
 /* key: those of scree_scene_set; "notes" of reading it; names of "bodies", "joints", "vehicles"; "scene": all of it, as a scene
  * file; "whole": with the meshes of files in it. */

@@ -334,6 +334,21 @@ class Model(unittest.TestCase):
         with self.assertRaises(TypeError):
             world.set_fields(tide=1)
 
+    def test_a_periodic_cell_wraps_and_stretches(self):
+        scene = scree.Scene(gravity=(0, 0, 0))
+        scene.set_periodic((2, 0, 2), centre=(1, 0, 1))
+        scene.add(scree.Sphere(.1), position=(1.9, 0, 1), velocity=(3, 0, 0))
+        world = scree.World(scene, backend="cpu")
+        world.step(12)
+        self.assertAlmostEqual(float(world.position[0, 0]), .5, delta=1e-4)
+        world.cell_rate = (.5, 0, -.5)
+        world.step(60)
+        self.assertEqual(world.cell_rate, (.5, 0, -.5))
+        self.assertAlmostEqual(world.cell_size[0], 2 * (1 + .5 / 60)**60, delta=1e-4)
+        self.assertEqual(world.cell_size[1], 0)
+        with self.assertRaises(scree.SceneError):
+            world.cell_rate = (0, 1, 0)
+
     def test_the_nearest_points(self):
         scene, ids = pile(4)
         world = scree.World(scene, backend="cpu")
