@@ -29,9 +29,9 @@ void main() {
         pose_b = at_image(pose_b, image);
         velocity_b = at_image(velocity_b, image);
     }
-    float approach = approach_of(FOUND_MANIFOLD(index), READ_WORD(point_counts, index),
-                                 pose_b.position - READ(poses, of_a).position, READ(velocities, of_a), velocity_b,
-                                 speculative_of(ta, tb, PARAMETERS), PARAMETERS);
+    float approach =
+        approach_of(FOUND_MANIFOLD(index), READ_WORD(point_counts, index), pose_b.position - READ(poses, of_a).position,
+                    READ(velocities, of_a), velocity_b, speculative_of(ta, tb, PARAMETERS), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(WORD(sleep_states, of_a), PARAMETERS.sleep_steps),
          b_sleeps = has_slept(WORD(sleep_states, of_b), PARAMETERS.sleep_steps);
