@@ -20,6 +20,10 @@ public:
         }
         return way;
     }
+    // Of a point and its images the one nearest to a place.
+    glm::dvec3 nearest_to(glm::dvec3 place, glm::dvec3 point) const {
+        return cell_.any() ? place + nearest(point - place) : point;
+    }
     // Calls take(shift) for what is within `bounds` and those of its images that are within a region: from it to them, m.
     template <class Take>
     void for_each(const Span& bounds, const Span& region, const Take& take) const {

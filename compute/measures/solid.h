@@ -25,7 +25,7 @@ struct Solid {
     double volume = 0;   // m^3
     Span bounds{};
 };
-Solid moved(Solid solid, glm::dvec3 shift);
+Solid moved(Solid solid, glm::dvec3 shift);  // m
 // Of a checked body, which must stay while they are used. Sensors and drawn parts are none.
 std::vector<Solid> solids_of(const Body& body, glm::dvec3 position, vec4 orientation);
 

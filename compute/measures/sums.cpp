@@ -108,12 +108,16 @@ template <class Take>
 void for_each_branch(const Scan& scan, const Touch& touch, const Take& take) {
     for (std::uint32_t k = 0; k < touch.count; ++k) {
         const Touch::Point& point = touch.points[k];
-        const auto centre_of = [&](const Grain& grain) {
-            return point.position + scan.images.nearest(grain.position - point.position);
-        };
+        const auto centre_of = [&](const Grain& grain) { return scan.images.nearest_to(point.position, grain.position); };
         if (const Grain* a = scan.grain(touch.a)) take(point.force, centre_of(*a), point.position);
         if (const Grain* b = scan.grain(touch.b)) take(point.force, point.position, centre_of(*b));
     }
+}
+
+// Calls take(solid) for a solid and its images in a region.
+template <class Take>
+void for_each_image(const Images& images, const Solid& solid, const Span& region, const Take& take) {
+    images.for_each(solid.bounds, region, [&](dvec3 shift) { shift == dvec3(0) ? take(solid) : take(moved(solid, shift)); });
 }
 
 Span span_between(dvec3 from, dvec3 to) {
@@ -190,9 +194,8 @@ RegionMeasures measures_of(const Scan& scan, const MeasureShape& shape, const st
     for (std::size_t i = 0; i < scan.grains.size(); ++i) {
         const Grain& grain = scan.grains[i];
         for (const Solid& solid : grain.solids)
-            scan.images.for_each(solid.bounds, around, [&](dvec3 shift) {
-                sums.cell.solid.add(volume_within(moved(solid, shift), shape) / units.volume);
-            });
+            for_each_image(scan.images, solid, around,
+                           [&](const Solid& one) { sums.cell.solid.add(volume_within(one, shape) / units.volume); });
         scan.images.for_each({grain.position, grain.position}, around, [&](dvec3 shift) {
             const dvec3 position = grain.position + shift;
             if (!holds(shape, position)) return;
@@ -264,9 +267,8 @@ std::vector<CellMeasures> measures_of(const Scan& scan, const Cells& cells) {
     for (std::size_t i = 0; i < scan.grains.size(); ++i) {
         const Grain& grain = scan.grains[i];
         for (const Solid& solid : grain.solids)
-            scan.images.for_each(solid.bounds, around, [&](dvec3 shift) {
-                cells.fill(moved(solid, shift),
-                           [&](std::size_t cell, double volume) { sums[cell].solid.add(volume / scan.units.volume); });
+            for_each_image(scan.images, solid, around, [&](const Solid& one) {
+                cells.fill(one, [&](std::size_t cell, double volume) { sums[cell].solid.add(volume / scan.units.volume); });
             });
         scan.images.for_each({grain.position, grain.position}, around, [&](dvec3 shift) {
             if (const std::size_t cell = cells.at(grain.position + shift); cell != Cells::none)

@@ -134,9 +134,9 @@ LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters para
     return range;
 }
 
-// The images of a body in a periodic cell whose bounds may overlap those of bodies of that level: periods along each axis. Bodies
-// are within the cell, their bounds reach out of it by a cell of the grid at most, and parts by half of half the period more
-// (compute/scene/validation/validation.cpp).
+// The images of a body in a periodic cell whose bounds may overlap those of bodies of that level: periods along each axis. The
+// centres of bodies are within the periodic cell, those of parts at most a quarter of the period from their body's
+// (compute/scene/validation/periodic_validation.cpp), and bounds reach from there by the width of a grid cell of their level.
 struct ImageRange {
     ivec3 first;
     ivec3 last;
